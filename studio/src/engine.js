@@ -24,7 +24,6 @@ export class Engine {
       adapters: settings.adapters && {
         places: weights.floats("denoiser.places"),
         adapterOf: weights.raw("denoiser.adapter_of", BigInt64Array),
-        number: settings.adapters,
       },
     };
     const scope = new Scope(settings.scope, new Weights(parts.scope), tower);

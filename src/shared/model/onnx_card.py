@@ -110,7 +110,7 @@ class TextOnnxCard(OnnxCard):
         max_seconds: of the longest clip it learned from; `min_frames` are needed.
     """
 
-    format_version: Literal[2] = 2
+    format_version: Literal[3] = 3  # 2 held all adapters in the graph
     kind: Literal["motion-generator"] = "motion-generator"
     mean: tuple[tuple[float, ...], ...]
     std: tuple[tuple[float, ...], ...]

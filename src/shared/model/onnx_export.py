@@ -181,16 +181,13 @@ def link_weights(model: Any, folder: Path) -> None:
         lookups = [node for node in rest if each.name in node.input]
         looked_up = all(_looks_up(node, each.name) for node in lookups)
         name, turned = known.get(_digest(value), ("", False))
-        names = [name] if name else _slices(value, known) if looked_up else []
-        if not names:
+        if not name:
             inside.append(each)
             continue
         if looked_up and not turned:
             for node in lookups:
                 at, found = rest.index(node), (node.output[0], header, outside, node.input[1])
-                rest[at : at + 1] = (
-                    _stored(name, *found) if name else _stored_table(names, *found, value.shape)
-                )
+                rest[at : at + 1] = _stored(name, *found)
             continue
         plain = f"{each.name}/turned" if turned else each.name
         nodes += _stored(name, plain, header, outside)
@@ -206,19 +203,6 @@ def _looks_up(node: Any, table: str) -> bool:
     """Whether a node does nothing with a table but to take rows of it."""
     axis = next((each.i for each in node.attribute if each.name == "axis"), 0)
     return bool(node.op_type == "Gather" and node.input[0] == table and axis == 0)
-
-
-def _slices(table: np.ndarray, known: Mapping[str, tuple[str, bool]]) -> list[str]:
-    """The stored matrices that lie one upon another in a table, filled up with zeros; or none."""
-    if table.ndim != 3:
-        return []
-    names = []
-    for each in table:
-        sizes = [(h, each.shape[1]) for h in range(len(each), 0, -1) if not each[h:].any()]
-        sizes += [(len(each), w) for w in range(each.shape[1], 0, -1) if not each[:, w:].any()]
-        found = (known.get(_digest(each[:h, :w]), ("", True)) for h, w in sizes)
-        names.append(next((name for name, turned in found if not turned), ""))
-    return names if all(names) else []
 
 
 def _stored(
@@ -287,63 +271,6 @@ def _read(
         tensor.external_data.add(key=key, value=str(each))
     outside[called] = tensor
     return called
-
-
-def _stored_table(
-    names: Sequence[str],
-    value: str,
-    header: Mapping[str, Any],
-    outside: dict[str, Any],
-    rows: str,
-    size: Sequence[int],
-) -> list[Any]:
-    """The nodes that look matrices up in a table of stored ones, filled up to one size.
-
-    Int8 stays int8 until it is looked up; where only some of them are, all become float32 on
-    loading. Arguments as of `_stored`, `size` being [A, H, W] of A names.
-    """
-    from onnx import TensorProto, helper
-
-    nodes = []
-    rounded = [name for name in names if name + INT8_SCALE in header]
-    kinds = {header[name]["dtype"] for name in names}
-
-    def node(kind: str, inputs: Sequence[str], called: str, **own: Any) -> str:
-        nodes.append(helper.make_node(kind, inputs, [called], **own))
-        return called
-
-    def looked_up(parts: Sequence[str], called: str) -> str:
-        table = node("Concat", parts, f"{called}/table", axis=0)
-        return node("Gather", [table, rows], f"{called}/rows", axis=0)
-
-    parts, scales = list[str](), list[str]()
-    for at, name in enumerate(names):
-        height, width = header[name]["shape"]
-        own, fill = f"{value}/{at}", [0, 0, 0, 0, size[1] - height, size[2] - width]
-        part = _read(name, f"stored/{name}", [1, height, width], header, outside)
-        scale = name + INT8_SCALE
-        if name in rounded:
-            scale = _read(scale, f"stored/{scale}", [1, height, 1], header, outside)
-        if len(kinds) > 1:
-            part = node("Cast", [part], f"{own}/float", to=TensorProto.FLOAT)
-            part = node("Mul", [part, scale], f"{own}/whole") if name in rounded else part
-        elif rounded and any(fill):
-            ends = f"{own}/scale/ends"
-            outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], [*fill[:5], 0])
-            scale = node("Pad", [scale, ends], f"{own}/scale/filled")
-        if any(fill):
-            ends = f"{own}/ends"
-            outside[ends] = helper.make_tensor(ends, TensorProto.INT64, [6], fill)
-            part = node("Pad", [part, ends], f"{own}/filled")
-        parts.append(part)
-        scales.append(scale)
-    found = looked_up(parts, value)
-    if len(kinds) > 1 or not rounded:
-        node("Cast", [found], value, to=TensorProto.FLOAT)
-    else:
-        found = node("Cast", [found], f"{value}/rounded", to=TensorProto.FLOAT)
-        node("Mul", [found, looked_up(scales, f"{value}/scale")], value)
-    return nodes
 
 
 _START = ""  # in a header, where the data begins; no tensor has such a name

@@ -2,6 +2,8 @@
 
 import * as ort from "onnxruntime-web/wasm";
 
+import { Weights } from "./safetensors.js";
+
 export class Denoiser {
   /**
    * @param {object} parts bytes: wasm of onnxruntime; graph, and adapted for a model with adapters,
@@ -17,6 +19,7 @@ export class Denoiser {
   constructor(parts) {
     this.parts = parts;
     this.sessions = {};
+    this.adapters = {}; // by number, as they are used
     this.helper = null; // predicts as this one does, elsewhere and at the same time
   }
 
@@ -32,6 +35,12 @@ export class Denoiser {
     return this.sessions[graph];
   }
 
+  /** The weights of an adapter as its graph hears them (src/shared/model/generation/onnx_networks.py). */
+  adapter(number) {
+    this.adapters[number] ??= new Weights(this.parts.weights).adapter(number - 1);
+    return this.adapters[number];
+  }
+
   /**
    * One prediction for a batch of one length.
    * @param {Float32Array[]} batch noisy motions [T,R,C]
@@ -39,10 +48,10 @@ export class Denoiser {
    * @param {Float32Array[]} texts an embedding each
    * @param {number} tag
    * @param {Uint8Array} shown entries [T,R,C] that are clean
-   * @param {Float32Array|null} opened adapters, ones and zeros, the same for the whole batch; null where none is
+   * @param {number} opened the adapter of the whole batch, from 1 on; 0 for none
    * @returns {Promise<Float32Array[]>}
    */
-  async predict(batch, step, texts, tag, shown, opened = null) {
+  async predict(batch, step, texts, tag, shown, opened = 0) {
     if (this.helper && batch.length > 1) {
       const half = batch.length >> 1;
       const rest = [batch.slice(half), step, texts.slice(half), tag, shown, opened];
@@ -62,7 +71,8 @@ export class Denoiser {
       return whole;
     };
     const shape = [number, frames, 23, 6];
-    const heard = opened && { opened: new ort.Tensor("float32", all(batch.map(() => opened)), [number, opened.length]) };
+    const own = opened && this.adapter(opened);
+    const heard = own && { adapter: new ort.Tensor("float32", all(batch.map(() => own)), [number, own.length]) };
     const { prediction } = await (await this.session(opened ? "adapted" : "graph")).run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),

@@ -27,6 +27,25 @@ export class Weights {
     return this.floats(`${name}.int8_scale`);
   }
 
+  /** Of adapter `at`, its maps [R,D] and [D',R] row by row, filled up to the largest rank R, by name. */
+  adapter(at) {
+    const names = Object.keys(this.entries).filter((name) => ADAPTER.test(name)).sort();
+    const of = (name, number, layer) => name.replace(ADAPTER, `.adapters.${number}.${layer}.weight`);
+    let rank = 0;
+    for (let i = 0; this.has(of(names[0], i, 0)); i++) rank = Math.max(rank, this.shape(of(names[0], i, 0))[0]);
+    const sizes = names.map((name) => [this.shape(name)[1], this.shape(of(name, 0, 1))[0]]);
+    const whole = new Float32Array(rank * sizes.flat().reduce((a, b) => a + b, 0));
+    let start = 0;
+    names.forEach((name, i) => {
+      const [inputs, outputs] = sizes[i], down = of(name, at, 0), up = of(name, at, 1), own = this.shape(down)[0];
+      whole.set(this.floats(down), start);
+      start += rank * inputs;
+      const values = this.floats(up);
+      for (let row = 0; row < outputs; row++, start += rank) whole.set(values.subarray(row * own, (row + 1) * own), start);
+    });
+    return whole;
+  }
+
   /** A tensor as float32, whatever it is stored as. */
   floats(name) {
     const { dtype } = this.entries[name];
@@ -40,6 +59,8 @@ export class Weights {
     return values;
   }
 }
+
+const ADAPTER = /\.adapters\.0\.0\.weight$/;
 
 function half(bits) {
   const sign = bits >> 15 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;

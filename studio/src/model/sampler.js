@@ -9,7 +9,7 @@ export class Sampler {
    * @param {Denoiser} denoiser
    * @param {TextTower} tower
    * @param {object} settings of the model: mean, std [R*C], null_text, tags, schedule [[t, alpha bar]],
-   *     guidance, clip, prediction, adapters {places [P*D], adapterOf [P], number} or null
+   *     guidance, clip, prediction, adapters {places [P*D], adapterOf [P]} or null
    */
   constructor(denoiser, tower, settings) {
     Object.assign(this, { denoiser, tower, settings });
@@ -47,19 +47,18 @@ export class Sampler {
     return features;
   }
 
-  /** Which adapters a text opens, as the nearest place does; null for none. */
+  /** Which adapter a text opens, as the nearest place does; 0 for none. */
   opened(text) {
     const { adapters } = this.settings;
-    if (!adapters) return null;
-    const { places, adapterOf, number } = adapters, dim = text.length;
+    if (!adapters) return 0;
+    const { places, adapterOf } = adapters, dim = text.length;
     let nearest = 0, most = -Infinity;
     for (let row = 0; row < adapterOf.length; row++) {
       let cosine = 0;
       for (let i = 0; i < dim; i++) cosine += places[row * dim + i] * text[i];
       if (cosine > most) [nearest, most] = [row, cosine];
     }
-    const own = Number(adapterOf[nearest]);
-    return own ? Float32Array.from({ length: number }, (_, i) => Number(own === i + 1)) : null;
+    return Number(adapterOf[nearest]);
   }
 
   async guided(x, step, text, nullText, tags, shown, guidance, opened) {

@@ -4,8 +4,8 @@ text.onnx: input_ids and attention_mask [B, L] int64 -> pooled [B, D]; tokens [B
 network that hears them, opened [B, A] for one with adapters, closeness [B] of a tower with places.
 denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
-the entry is given) -> prediction. adapted.onnx hears opened as well; denoiser.onnx is the same
-network where no text opens an adapter, which takes less time.
+the entry is given) -> prediction. adapted.onnx hears the weights of each sample's adapter as well
+(onnx_networks.py); denoiser.onnx is the same network where no text opens one.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
@@ -57,17 +57,19 @@ class SymbolicPairs(TokenPairEncoder):
 
 
 class SymbolicAdapted(AdaptedLinear):
-    """Keeps its adapters in tables, of which a graph takes the rows that it needs."""
+    """Hears the weights of each sample's adapter [B, N]: its own are those from `start` on."""
 
-    TABLES = ("down", "up")
+    start = 0
 
-    def keep(self) -> None:
-        """Fill the tables."""
-        for layer, name in enumerate(self.TABLES):
-            self.register_buffer(name, super().table(layer).detach())
-
-    def table(self, layer: int) -> Tensor:
-        return self.get_buffer(self.TABLES[layer])
+    def forward(self, x: Tensor, opened: Tensor | None = None) -> Tensor:
+        y = nn.functional.linear(x, self.weight, self.bias)
+        if opened is None:
+            return y
+        middle = self.start + self.rank * self.in_features
+        end = middle + self.out_features * self.rank
+        down = opened[:, self.start : middle].reshape(-1, self.rank, self.in_features)
+        up = opened[:, middle:end].reshape(-1, self.out_features, self.rank)
+        return y + x @ down.mT @ up.mT
 
 
 class TextGraph(nn.Module):
@@ -94,15 +96,17 @@ class DenoiserGraph(nn.Module):
 
     Args:
         denoiser: trained.
-        more: names of its last inputs, of tokens, token_mask and opened.
+        more: names of its last inputs, of tokens, token_mask and adapter.
     """
 
     def __init__(self, denoiser: MotionDenoiser, more: Sequence[str]) -> None:
         super().__init__()
         self.denoiser, self.more = symbolic(denoiser, {AdaptedLinear: SymbolicAdapted}), more
-        for part in self.denoiser.modules():
+        self.numbers = 0  # N, of the weights of an adapter
+        for _, part in sorted(self.denoiser.named_modules()):
             if isinstance(part, SymbolicAdapted) and part.adapters:
-                part.keep()
+                part.start = self.numbers
+                self.numbers += part.rank * (part.in_features + part.out_features)
 
     def forward(
         self,
@@ -125,7 +129,7 @@ class DenoiserGraph(nn.Module):
         result: Tensor = self.denoiser(
             x,
             t,
-            TextFeatures(pooled, tokens, token_mask, more.get("opened")),
+            TextFeatures(pooled, tokens, token_mask, more.get("adapter")),
             tag,
             mask,
             known=known if self.denoiser.shows_known else None,
@@ -164,8 +168,9 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         more["tokens"] = (torch.randn(2, 7, dim), words)
         more["token_mask"] = (torch.ones(2, 7, dtype=torch.bool), words)
     variants = {DENOISER_GRAPH: more}
-    if adapters := len(config.generation.adapter_ranks):
-        variants[ADAPTED_GRAPH] = more | {"opened": (torch.zeros(2, adapters), batch)}
+    if config.generation.adapter_ranks:
+        numbers = DenoiserGraph(denoiser, ()).numbers
+        variants[ADAPTED_GRAPH] = more | {"adapter": (torch.zeros(2, numbers), batch)}
     networks = {
         graph: traced(
             DenoiserGraph(denoiser, list(heard)),

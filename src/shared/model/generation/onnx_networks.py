@@ -3,6 +3,7 @@
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -12,12 +13,53 @@ import numpy as np
 
 from ...config_schema import ClipConfig, NetworkConfig
 from ...tensors import Tensor, nn, torch
-from ..checkpoint import ModelCard, read_tensors
+from ..checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
 from ..clip.features import TextFeatures, null_features
 from ..onnx_card import TextOnnxCard, open_graph, run
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
-ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with its adapters, for texts that open one
+ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with an adapter, for texts that open one
+ADAPTERS = ".adapters."
+
+
+def adapter_weights(folder: Path, opened: Sequence[float]) -> np.ndarray:
+    """What adapted.onnx hears [N]: the weights of the adapter that is opened, zeros for none.
+
+    Of each map that has adapters, by their names in model.safetensors, the first map [R, D], then
+    the second [D', R], row by row, filled up with zeros to the largest rank R.
+
+    Args:
+        folder: of the export.
+        opened: [A] of zeros and at most one 1.
+    """
+    from safetensors import safe_open
+
+    with safe_open(folder / WEIGHTS_FILE, "np") as stored:
+        names = set(stored.keys())
+        first = sorted(name for name in names if name.endswith(f"{ADAPTERS}0.0.weight"))
+        shapes = [stored.get_slice(name).get_shape()
+                  for at in range(len(opened)) for name in [_of_adapter(first[0], at)]]  # fmt: skip
+        rank, own = max(height for height, _ in shapes), [*opened].index(1) if any(opened) else None
+        parts = []
+        for down in first:
+            up = down.replace(f"{ADAPTERS}0.0", f"{ADAPTERS}0.1")
+            sizes = ((rank, stored.get_slice(down).get_shape()[1]),
+                     (stored.get_slice(up).get_shape()[0], rank))  # fmt: skip
+            for name, size in zip((down, up), sizes, strict=True):
+                whole = np.zeros(size, np.float32)
+                if own is not None:
+                    name = _of_adapter(name, own)
+                    part = stored.get_tensor(name).astype(np.float32)
+                    if name + INT8_SCALE in names:
+                        part = part * stored.get_tensor(name + INT8_SCALE)[:, None]
+                    whole[: len(part), : part.shape[1]] = part
+                parts.append(whole.ravel())
+    return np.concatenate(parts)
+
+
+def _of_adapter(name: str, at: int) -> str:
+    """The tensor of adapter 0 of another one."""
+    return name.replace(f"{ADAPTERS}0.", f"{ADAPTERS}{at}.")
 
 
 class OnnxTextTower(nn.Module):
@@ -62,6 +104,7 @@ class OnnxDenoiser(nn.Module):
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
         self._session = cache(lambda graph: open_graph(folder, graph, threads))  # as they are used
+        self._weights_of = cache(lambda opened: adapter_weights(folder, opened))
 
     def forward(
         self,
@@ -76,9 +119,12 @@ class OnnxDenoiser(nn.Module):
         keys_values: object = None,
     ) -> Tensor:
         """As `MotionDenoiser.forward`; provenance and keys are the graph's own."""
-        heard = {} if self._token is None else {"tokens": text.tokens, "token_mask": text.mask}
+        heard = dict[str, Tensor | np.ndarray]()
+        if self._token is not None:
+            heard |= {"tokens": text.tokens, "token_mask": text.mask}
         if text.opened is not None:
-            heard["opened"] = text.opened
+            own = [self._weights_of(tuple(row)) for row in text.opened.tolist()]
+            heard["adapter"] = np.stack(own)
         (prediction,) = run(
             self._session(DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH),
             x=noisy,
