@@ -19,7 +19,7 @@ export class Denoiser {
   constructor(parts) {
     this.parts = parts;
     this.sessions = {};
-    this.adapters = {}; // by number, as they are used
+    this.adapters = {}; // of so many samples each, as they are used
     this.helper = null; // predicts as this one does, elsewhere and at the same time
   }
 
@@ -35,10 +35,14 @@ export class Denoiser {
     return this.sessions[graph];
   }
 
-  /** The weights of an adapter as its graph hears them (src/shared/model/generation/onnx_networks.py). */
-  adapter(number) {
-    this.adapters[number] ??= new Weights(this.parts.weights).adapter(number - 1);
-    return this.adapters[number];
+  /** What the graph hears of an adapter (src/shared/model/generation/onnx_networks.py) for so many samples. */
+  adapter(opened, samples) {
+    const key = `${opened} ${samples}`;
+    if (!this.adapters[key]) {
+      const own = new Weights(this.parts.weights).adapter(opened - 1);
+      this.adapters[key] = new ort.Tensor("float32", all(Array(samples).fill(own)), [samples, own.length]);
+    }
+    return this.adapters[key];
   }
 
   /**
@@ -65,14 +69,8 @@ export class Denoiser {
       return [...here, ...theirs];
     }
     const number = batch.length, size = batch[0].length, frames = size / 138;
-    const all = (rows, Kind = Float32Array) => {
-      const whole = new Kind(rows.length * rows[0].length);
-      rows.forEach((row, i) => whole.set(row, i * row.length));
-      return whole;
-    };
     const shape = [number, frames, 23, 6];
-    const own = opened && this.adapter(opened);
-    const heard = own && { adapter: new ort.Tensor("float32", all(batch.map(() => own)), [number, own.length]) };
+    const heard = opened && { adapter: this.adapter(opened, number) };
     const { prediction } = await (await this.session(opened ? "adapted" : "graph")).run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
@@ -84,4 +82,10 @@ export class Denoiser {
     });
     return batch.map((_, i) => prediction.data.slice(i * size, (i + 1) * size));
   }
+}
+
+function all(rows, Kind = Float32Array) {
+  const whole = new Kind(rows.length * rows[0].length);
+  rows.forEach((row, i) => whole.set(row, i * row.length));
+  return whole;
 }

@@ -5,7 +5,7 @@ Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -104,7 +104,8 @@ class OnnxDenoiser(nn.Module):
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
         self._session = cache(lambda graph: open_graph(folder, graph, threads))  # as they are used
-        self._weights_of = cache(lambda opened: adapter_weights(folder, opened))
+        own = cache(lambda opened: adapter_weights(folder, opened))
+        self._adapters = lru_cache(1)(lambda opened: np.stack([*map(own, opened)]))
 
     def forward(
         self,
@@ -123,8 +124,7 @@ class OnnxDenoiser(nn.Module):
         if self._token is not None:
             heard |= {"tokens": text.tokens, "token_mask": text.mask}
         if text.opened is not None:
-            own = [self._weights_of(tuple(row)) for row in text.opened.tolist()]
-            heard["adapter"] = np.stack(own)
+            heard["adapter"] = self._adapters(tuple(map(tuple, text.opened.tolist())))
         (prediction,) = run(
             self._session(DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH),
             x=noisy,
