@@ -15,7 +15,6 @@ given the very place of plain clips (captured_places.py) moves aside. With
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
 
-import copy
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -25,23 +24,16 @@ from pathlib import Path
 import torch
 from pydantic import Field
 from torch import Tensor, nn
-from torch.nn.functional import cross_entropy, kl_div, normalize, pad
+from torch.nn.functional import normalize
 
 from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, NetworkConfig, TrainConfig
-from ..shared.data.captions.book import insert_babble, packaged_book
+from ..shared.data.captions.book import packaged_book
 from ..shared.data.prepared import ClipRecord
 from ..shared.data.text_motion import arm_actions, gestures, still_actions
 from ..shared.errors import UsageError, UserError
-from ..shared.model.clip.core import (
-    PLACE_SCALE,
-    TextTower,
-    TokenPairEncoder,
-    counted_keys,
-    keys_of,
-)
-from ..shared.model.clip.out_of_domain import OFTENER, OutOfDomainDetector
+from ..shared.model.clip.core import TextTower
+from ..shared.model.clip.out_of_domain import OutOfDomainDetector
 from ..shared.model.clip.pretrained import encode_captions, tower_hash
-from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
@@ -50,6 +42,7 @@ from .captured_places import apart
 from .launch import Stage
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
+from .taught_tower import old_captions, pooled, with_new_places, within_reach
 from .text_stages import (
     as_features,
     fit_warnings,
@@ -69,12 +62,6 @@ from .train_generation import (
     spread_timesteps,
 )
 
-OLD_CAPTIONS = 16  # of each known action and language
-TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
-TOWER_RATE = 5e-2
-PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little
-NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
-BABBLE = 0.3  # share of new captions with made-up words in them
 KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
 LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
@@ -236,7 +223,7 @@ class ActionTask(Task):
             groups = {record.group: record for record in records}
             return {
                 group: (
-                    _pooled(before, self.before.tokenizer, self._captions(record)) @ keys.T
+                    pooled(before, self.before.tokenizer, self._captions(record)) @ keys.T
                 ).argmax(-1)
                 for group, record in groups.items()
             }
@@ -453,150 +440,6 @@ def aside(places: Tensor, rows: Iterable[int]) -> Tensor:
             way = normalize(torch.randn(places.shape[1], generator=generator("aside", row)), dim=0)
             moved[row] = normalize(places[row] + ASIDE * way, dim=0)
     return moved
-
-
-def old_captions(actions: Sequence[str], languages: Sequence[str]) -> list[str]:
-    """Sentences that a tower is to send where it sent them before, whatever it makes of them."""
-    book = packaged_book()
-    combinations = [{"action": action} for action in actions]
-    known = [*book.control_tasks(), *book.combinations()]
-    combinations += [labels for labels in known if labels.get("action") in actions]
-    return sorted(
-        {
-            text
-            for labels in combinations
-            for code, texts in book.captions(labels, num=OLD_CAPTIONS, seed=0).items()
-            if code in languages
-            for text in texts
-        }.union(*(book.written_of(actions, code) for code in languages))
-    )
-
-
-def within_reach(tower: TextTower, places: Tensor) -> Tensor:
-    """The unit vectors [N,D] nearest to places that the projection of a narrow tower can give."""
-    basis = torch.linalg.qr(tower.text_proj.weight.detach().float())[0]  # [D, H], or [D, D]
-    return normalize(places @ basis @ basis.T, dim=-1)
-
-
-def with_new_places(
-    tower: TextTower,
-    tokenizer: PromptTokenizer,
-    places: Tensor,
-    captions: Sequence[Sequence[str]],
-    old: Sequence[str],
-    outside: Sequence[str],
-    *,
-    steps: int,
-    seed: int,
-) -> TextTower:
-    """A tower of token pairs that sends `captions[i]` to `places[i]`, and all others as before.
-
-    The projection stays, and so do the rows of all tokens and pairs but those that tell the new
-    captions: a sentence without one of them is read as before.
-
-    Args:
-        tower: the old one; not changed.
-        places: unit [N,D].
-        captions: N lists.
-        old: sentences whose embeddings and shares of the old places it keeps (distillation, Hinton
-            et al. 2015).
-        outside: sentences of what neither knows, which it keeps away from all places likewise.
-        steps: of TOWER_BATCH sentences.
-    """
-    own = [text for texts in captions for text in texts]
-    row = torch.tensor([i for i, texts in enumerate(captions) for _ in texts])
-    mine = set(own)
-    old = [text for text in old if text not in mine]
-    every = torch.cat([tower.place_keys(), places])  # [P + N, D]
-    telling = _telling(tokenizer(own)[0], tokenizer(old)[0])
-    student = _extended(tower, telling).requires_grad_(False).train()
-    assert isinstance(student.encoder, TokenPairEncoder)
-    learning = pad(torch.isin(student.encoder.keys, telling).float(), (0, 1))  # [rows]
-    rows = student.encoder.rows.weight.requires_grad_(True)
-    start = rows.detach().clone()
-    others = [text for text in outside if text not in mine]
-
-    def touched(texts: list[str]) -> list[str]:
-        """Those of whose rows any learns: all others are read as before whatever is learned."""
-        if not texts:
-            return []
-        hit = torch.isin(keys_of(tokenizer(texts)[0]), telling).flatten(1).any(1)
-        return [text for text, each in zip(texts, hit.tolist(), strict=True) if each]
-
-    old, others = touched(old) or old, touched(others) or others
-    near, far = range(len(old)), range(len(old), len(old) + len(others))
-    pools = [(range(len(own)), 2), (near or far, 1), (far or near, 1)]
-    old += others
-    with torch.no_grad():
-        taught = torch.cat(
-            [_pooled(tower, tokenizer, old[at : at + 512]) for at in range(0, len(old), 512)]
-        )  # [M, D]
-    shares = (PLACE_SCALE * taught @ every[: -len(places)].T).softmax(-1)
-    shares = pad(shares, (0, len(places)))  # [M, P + N]
-    learner = torch.optim.Adam([rows], lr=TOWER_RATE)
-    rng = numpy_generator("tower", seed)
-    draws = generator("tower", seed)
-    part = TOWER_BATCH // 4
-    with torch.random.fork_rng():
-        torch.manual_seed(seed)
-        for _ in range(steps):
-            news, *kept = (
-                torch.randint(pool.start, pool.stop, (parts * part,), generator=draws)
-                for pool, parts in pools
-            )
-            olds = torch.cat(kept)
-            texts = [own[i] for i in news]
-            texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
-            pooled = _pooled(student, tokenizer, [*texts, *(old[i] for i in olds)])
-            scores = PLACE_SCALE * pooled @ every.T  # [TOWER_BATCH, P + N]
-            wanted = row[news] + len(every) - len(places)
-            loss = cross_entropy(scores[: 2 * part], wanted)
-            loss = loss + kl_div(
-                scores[2 * part :].log_softmax(-1), shares[olds], reduction="batchmean"
-            )
-            aims = torch.cat([places[row[news]], taught[olds]])
-            loss = loss + NEARNESS * (1 - (pooled * aims).sum(-1)).mean()
-            learner.zero_grad()
-            loss.backward()  # type: ignore[no-untyped-call]
-            learner.step()
-            with torch.no_grad():
-                rows.copy_(start + (1 - PULL) * learning[:, None] * (rows - start))
-    answers = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
-    return with_places(student, answers, every if tower.config.text_place_keys else None)
-
-
-def _pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -> Tensor:
-    """Unit embeddings [B,D] before they are sent to places."""
-    ids, mask = tokenizer(list(texts))
-    hidden = tower.encoder(input_ids=ids, attention_mask=mask).last_hidden_state  # [B,L,H]
-    real = mask[..., None].to(hidden.dtype)
-    mean = (hidden * real).sum(1) / real.sum(1)
-    return normalize(tower.text_proj(mean), dim=-1)
-
-
-def _telling(own: Tensor, old: Tensor) -> Tensor:
-    """Keys that are OFTENER times as frequent in new captions (ids [N,L]) as in old ones [M,L]."""
-    keys, counts = counted_keys([own])
-    known, others = counted_keys([old])
-    at = torch.searchsorted(known, keys).clamp(max=len(known) - 1)
-    elsewhere = torch.where(known[at] == keys, others[at], 0) / len(old)
-    return keys[counts / len(own) >= OFTENER * elsewhere]
-
-
-def _extended(tower: TextTower, keys: Tensor) -> TextTower:
-    """A copy of the tower with a row for each of these keys that it has none for."""
-    assert isinstance(tower.encoder, TokenPairEncoder)
-    before = tower.encoder.keys
-    fresh = keys[~torch.isin(keys, before)]
-    every, order = torch.cat([before, fresh]).sort()
-    config = tower.config.model_copy(update={"text_pairs": len(every)})
-    wider = TextTower(config, tower.embed_dim)
-    state = copy.copy(tower.state_dict())
-    rows = state["encoder.rows.weight"]  # [N + 1, H], the last one unknown
-    more = torch.cat([rows[:-1], torch.zeros(len(fresh), rows.shape[1])])[order]
-    state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
-    wider.load_state_dict(state)
-    return wider
 
 
 def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
