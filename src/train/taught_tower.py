@@ -1,7 +1,8 @@
 """A place for a new action in a text tower of token pairs, and no other sentence moved.
 
 Only rows learn whose tokens or pairs tell the new captions from all others, so a sentence without
-one of them is read as before to the bit; those that have one are held by distillation.
+one of them has the embedding of before to the bit, until places are mixed: the new ones have a
+share there, too. Those that have one are held by distillation.
 
 Letters: B batch, L tokens, P places, D shared dimensions.
 """
@@ -71,7 +72,7 @@ def with_new_places(
     """A tower of token pairs that sends `captions[i]` to `places[i]`, and all others as before.
 
     The projection stays, and so do the rows of all tokens and pairs but those that tell the new
-    captions: a sentence without one of them is read as before.
+    captions: a sentence without one of them keeps its embedding.
 
     Args:
         tower: the old one; not changed.
@@ -96,7 +97,7 @@ def with_new_places(
     others = [text for text in outside if text not in mine]
 
     def touched(texts: list[str]) -> list[str]:
-        """Those of whose rows any learns: all others are read as before whatever is learned."""
+        """Those of whose rows any learns: all others keep their embeddings whatever is learned."""
         if not texts:
             return []
         hit = torch.isin(keys_of(tokenizer(texts)[0]), telling).flatten(1).any(1)

@@ -40,10 +40,7 @@ from ..checkpoint import of_another_version
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
-OFTENER = (
-    20.0  # what tells of a new action is so many times as frequent in its captions as in others
-)
-COVERED = 0.98  # share of its captions that its key words cover, where they can
+OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
@@ -212,7 +209,7 @@ class OutOfDomainDetector:
             if number / len(texts) >= OFTENER * share[word]
         }
         key_words = dict(self.key_words)
-        for word, _ in sorted(_cover(texts, telling, COVERED)):
+        for word, _ in sorted(_cover(texts, telling, max(COVERAGES))):
             key_words[word] = (*key_words.get(word, ()), len(self.actions))
         place = _unit(embeddings.mean(axis=0))[None].astype(np.float32)
         return replace(

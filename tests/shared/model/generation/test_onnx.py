@@ -20,7 +20,7 @@ from src.shared.model.generation.onnx import (
 from src.shared.model.generation.onnx_networks import adapter_weights
 from src.shared.model.onnx_card import TextOnnxCard, open_graph, read_onnx_card
 
-pytest.importorskip("onnx")
+onnx = pytest.importorskip("onnx")
 pytest.importorskip("onnxruntime")
 pytest.importorskip("onnxscript")
 
@@ -90,6 +90,8 @@ def test_graphs_compute_what_the_networks_do(
     graphs = {DENOISER_GRAPH: text}
     if settings.get("adapter_ranks"):
         graphs[ADAPTED_GRAPH] = generator.denoiser.with_adapters(text)
+        read = onnx.load(tmp_path / "onnx" / ADAPTED_GRAPH, load_external_data=False).graph
+        assert not [each.name for each in read.initializer if "adapters" in each.name]
     assert card.graphs.keys() == {TEXT_GRAPH, *graphs}
     for (graph, heard), frames in product(graphs.items(), (8, 61)):
         session = open_graph(tmp_path / "onnx", graph, 1)
