@@ -154,8 +154,9 @@ def _num_threads() -> int:
 
 
 @contextmanager
-def idle_threads() -> Iterator[None]:
-    """Inside, torch takes no more CPU threads than cores are idle, unless someone chose a number.
+def idle_threads(most: int | None = None) -> Iterator[None]:
+    """Inside, torch takes no more CPU threads than cores are idle, unless someone chose a number,
+    and never more than `most`.
 
     Threads that share out small operations wait for each other by spinning: one that has lost its
     core to another process makes all of them twenty times slower (docs/experiments.md, section 6).
@@ -166,6 +167,8 @@ def idle_threads() -> Iterator[None]:
     if torch_is_here and _chosen_threads is None:
         idle = max(idle_cores() for _ in range(READINGS))
         torch.set_num_threads(max(1, min(before, idle)))
+    if torch_is_here and most is not None:
+        torch.set_num_threads(min(most, torch.get_num_threads()))
     try:
         yield
     finally:

@@ -194,8 +194,12 @@ def _could_be_exported(name_or_folder: str | Path) -> bool:
         return False
 
 
-def open_graph(folder: Path, name: str, threads: int) -> Any:
+def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) -> Any:
     """An onnxruntime session of a graph, on so many threads of the CPU.
+
+    Args:
+        spinning: whether threads that have nothing to do wait for work in a loop. Large products
+            are done sooner so; between many small ones it takes the core from those that work.
 
     Raises:
         UserError: the package is missing, or it cannot load the graph.
@@ -206,6 +210,8 @@ def open_graph(folder: Path, name: str, threads: int) -> Any:
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads
     options.log_severity_level = 3  # errors
+    if not spinning:
+        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
     options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
     try:
         return onnxruntime.InferenceSession(

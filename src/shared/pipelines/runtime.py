@@ -151,7 +151,8 @@ class OnnxRuntime:
         """
         folder, threads = resolve_model(folder), sampling_threads()
         card = read_onnx_card(folder, AudioOnnxCard)
-        return cls(card, *(open_graph(folder, name, threads) for name in AUDIO_GRAPHS))
+        graphs = (open_graph(folder, name, threads, spinning=False) for name in AUDIO_GRAPHS)
+        return cls(card, *graphs)
 
     def normalise(self, raw: Tensor) -> Tensor:
         """See `Runtime`."""

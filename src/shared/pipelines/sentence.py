@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, all_words, bare
+from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, UNITS, all_words, bare
 
 # ---------------------------------------------------------------- what they mean
 
@@ -40,7 +40,7 @@ class Reading(NamedTuple):
 
 Read = Callable[[str], Reading]
 Span = tuple[int, int]
-_Last = tuple[str | None, str]
+_Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
 
 
@@ -54,6 +54,7 @@ class Clause:
         degrees: to turn, positive to the left; None where nothing is said.
         metres: to go.
         seconds: to go on.
+        steps: to take; None where nothing is said.
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
         side: left, right or both.
     """
@@ -63,8 +64,14 @@ class Clause:
     degrees: float | None = None
     metres: float | None = None
     seconds: float | None = None
+    steps: float | None = None
     meanwhile: str = ""
     side: str = "both"
+
+    @property
+    def far(self) -> bool:
+        """Whether it says how far to go or to turn."""
+        return not (self.metres is self.steps is self.degrees is None)
 
     @property
     def plain(self) -> bool:
@@ -155,7 +162,10 @@ def _begins_after(text: str, then: re.Match[str]) -> bool:
     """Whether a word of order is the first one of a longer phrase that says the opposite."""
     word = then[0].lstrip(EDGES)
     after = all_words().after.match(text, then.end() - len(word))
-    if after is None or all_words().units["seconds"].match(text, after.end()):
+    units = all_words().units
+    if after is None or any(
+        units[name].match(text, after.end()) for name in ("seconds", "minutes")
+    ):
         return False
     return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
@@ -208,20 +218,21 @@ def _joined(text: str, read: Read) -> list[str]:
     ]
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
-    # The best ways up to a piece, one for each action and side of their last part.
-    ways: list[dict[_Last, _Way]] = [{(None, "both"): _Way()}]
+    # The best ways up to a piece, one for what their last part is.
+    ways: list[dict[_Last, _Way]] = [{(None, "both", False): _Way()}]
     for stop in range(1, len(pieces) + 1):
         here = {last: way._replace(passed=way.passed + 1) for last, way in ways[-1].items()}
         for start in range(max(0, stop - MOST_PIECES), stop):
             if asides[start] and (start or all(asides[:stop])):
                 continue  # stays with what stands before it, or else behind it
             part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
-            reading, side = read(_measured(part).text), side_of(part)
-            last = reading.action, side
+            clause, side = _measured(part), side_of(part)
+            reading, far = read(clause.text), clause.far
+            last = reading.action, side, far
             before = [
                 way
-                for (action, other), way in ways[start].items()
-                if action != reading.action or {other, side} == _SIDES
+                for (action, other, was_far), way in ways[start].items()
+                if action != reading.action or {other, side} == _SIDES or (far and was_far)
             ]
             if before and reading.certainty > SURE:
                 way = max(before, key=_Way.rank).further(part, reading.certainty)
@@ -400,24 +411,27 @@ def _measured(text: str) -> Clause:
     words, clause = all_words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
-    for name, pattern in words.units.items():
-        match = pattern.search(clause.text)
-        if match is None:
+    for name, (field, factor, least) in UNITS.items():
+        match = words.units[name].search(clause.text)
+        if match is None or (number := _value(match["number"])) < least:
             continue
-        value = _value(match["number"])
-        # Japanese counts and turns with one word: a few 度 are times, many are degrees.
-        if name == "degrees" and value < 15:
+        number += 0.5 * bool(match.groupdict().get("half"))
+        value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
+        if not 0 < value <= MOST[field]:
             continue
-        if not 0 < value <= MOST[name]:
-            continue
-        found: dict[str, Any] = {"text": _without(clause.text, match), name: value}
-        clause = replace(clause, **found)
+        stays, before = "", clause.text[: match.start()]
+        if name == "steps" and (not before.strip() or words.takes.search(before)):
+            stays = (match["manner"] or "") + words.steps[bare(match["noun"])]
+        rest = _without(clause.text, match, stays)
+        if rest or name != "steps":
+            found: dict[str, Any] = {"text": rest, field: value}
+            clause = replace(clause, **found)
     if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
         clause = replace(clause, degrees=words.angles[bare(match[0])])
     if clause.degrees is not None:
         sign = -1.0 if side == "right" else 1.0
         return replace(clause, degrees=sign * clause.degrees)
-    if clause.metres is None and clause.seconds is None:
+    if clause.metres is None and clause.seconds is None and clause.steps is None:
         return _counted(clause)
     return clause
 
@@ -442,8 +456,9 @@ def _value(text: str) -> float:
     return float(text.replace(",", ".")) if number is None else float(number)
 
 
-def _without(text: str, match: re.Match[str]) -> str:
-    return _trimmed(f"{text[: match.start()].rstrip()} {text[match.end() :].lstrip()}")
+def _without(text: str, match: re.Match[str], stays: str = "") -> str:
+    before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
+    return _trimmed(f"{before} {stays} {after}" if stays else f"{before} {after}")
 
 
 def _trimmed(text: str) -> str:

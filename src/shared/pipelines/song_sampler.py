@@ -105,7 +105,6 @@ class SongSampler:
             self.settings.steps,
         )
 
-    @idle_threads()
     def sample(
         self,
         condition: Tensor,
@@ -153,9 +152,11 @@ class SongSampler:
                 remembered = recall(start, known.shape[-1])
                 memory = remembered.to(self.device).after(known_frames(values, known))
             shown = self.settings.overlap if before else 0
-            windows = self._window(
-                condition[:, start:end], known, values, tracked, draws, memory, shown=shown
-            )
+            # torch's threads would wait, spinning, on the cores that an export computes on
+            with idle_threads(None if isinstance(self.model, nn.Module) else 1):
+                windows = self._window(
+                    condition[:, start:end], known, values, tracked, draws, memory, shown=shown
+                )
             tail = TAIL if end == num_frames else 0
             windows = [(rows[:, : end - start + tail], first) for rows, first in windows]
             if not joiners:

@@ -14,7 +14,16 @@ from typing import Any
 from ..config_loader import load_yaml, packaged_config
 
 MAX_COUNT = 20
-MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0}
+MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0, "steps": 50.0}
+UNITS = {  # of a sentence: what they measure, how much of it one is, and the least number of them
+    "degrees": ("degrees", 1.0, 15.0),  # Japanese counts with the same word: a few 度 are times
+    "minutes": ("seconds", 60.0, 0.0),
+    "seconds": ("seconds", 1.0, 0.0),
+    "feet": ("metres", 0.3048, 3.0),  # one and two are a body's own
+    "yards": ("metres", 0.9144, 0.0),
+    "metres": ("metres", 1.0, 0.0),
+    "steps": ("steps", 1.0, 2.0),  # one step is mostly a way of saying where to
+}
 EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
 # Classes without case and, but for the few of CJK_SIGN, without wide ranges: re spells out every
@@ -102,10 +111,23 @@ class Words:
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
         ready = rf"(?:(?<![\w.,])|(?<={CJK_SIGN}))"
-        self.units = {
-            name: re.compile(rf"{_lead()}{ready}{number}[\s-]*{_any(all_of(name))}", re.I)
-            for name in ("degrees", "metres", "seconds")
-        }
+        articles = all_of("articles")
+        fractions = {word: value for table in tables for word, value in table["fractions"].items()}
+        self.numbers |= {bare(word): value for word, value in fractions.items()}
+        self.numbers |= {bare(word): 1 for word in articles}
+        steps = {noun: stays for table in tables for noun, stays in table["steps"].items()}
+        self.steps = {bare(noun.partition("/")[0]): stays for noun, stays in steps.items()}
+        self.takes = re.compile(_any(all_of("takes")), re.I)
+        half = rf"(?P<half>\s*{_any(all_of('half'))})?{_trail()}"
+
+        def measure(name: str) -> str:
+            words = [*numbers, *fractions, *([] if name == "seconds" else articles)]
+            amount = rf"{_lead()}{ready}(?P<number>{_DIGITS}|{_any(words)})"
+            if name == "steps":
+                return rf"{amount}\s*(?P<manner>{_LETTER}+\s+)?(?P<noun>{_any(steps)})"
+            return rf"{amount}[\s-]*{_any(all_of(name))}{half}"
+
+        self.units = {name: re.compile(measure(name), re.I) for name in UNITS}
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
@@ -119,7 +141,16 @@ class Words:
 
 def _lead() -> str:
     """Words before a measure that mean nothing without it."""
-    return r"(?:(?<!\w)(?:for|during|by|durante|por|pendant|de|für|um|von|about)\s+)?"
+    leads = (
+        "for|during|by|about|around|roughly|durante|por|unos|unas|pendant|environ|de"
+        "|für|um|von|etwa|ungefähr|rund"
+    )
+    return rf"(?:(?<!\w)(?:{leads})\s+)*"
+
+
+def _trail() -> str:
+    """Words behind a measure that mean nothing without it."""
+    return r"(?:\s+lang(?!\w))?"
 
 
 def _any(words: Sequence[str] | dict[str, Any]) -> str:
@@ -191,11 +222,11 @@ _JAVASCRIPT = (
 def javascript_patterns() -> dict[str, Any]:
     """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
     ours = all_words()
-    tables = ("numbers", "adverbs", "angles", "others", "plainly")
+    tables = ("numbers", "adverbs", "angles", "others", "plainly", "steps")
     said = {name: vars(ours)[name] for name in tables}
     alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
     found = {
         name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
         for name, each in (alone | ours.units).items()
     }
-    return {"patterns": found, "most": MOST, "maxCount": MAX_COUNT} | said
+    return {"patterns": found, "units": UNITS, "most": MOST, "maxCount": MAX_COUNT} | said

@@ -1,7 +1,7 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { decodeFeatures, FORWARD, framesOf, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { cut, decodeFeatures, FORWARD, framesOf, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
@@ -11,7 +11,7 @@ import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./p
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const GOING = ["walk", "run", "crouch-walk"], CORNER = 90, CORNER_SECONDS = 2.3, TURNING = (20 * Math.PI) / 180;
+const GOING = ["walk", "run", "crouch-walk"], STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
@@ -32,7 +32,7 @@ export class Director {
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     let texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    if (texts.length === 1) texts = [this.reader.tidied(prompt)];
+    if (parts.length === 1 && isPlain(parts[0])) texts = [this.reader.tidied(prompt)];
     return texts.map((text) => this.scope.warning(text)).find(Boolean) ?? null;
   }
 
@@ -119,11 +119,10 @@ export class Director {
       }
       at += stretch.passage.frames;
     }
-    const longest = this.settings.maxSeconds ?? WINDOW / FPS;
     let features = await streamFeatures(this.sampler, passages, seed, {
       ...options,
       constraint: led ? given : null,
-      window: Math.min(WINDOW, Math.max(2 * OVERLAP, round(longest * FPS))),
+      window: this.window(),
       overlap: parts.some(({ count }) => count > 1) ? REPEATED_OVERLAP : OVERLAP,
     });
     for (const [i, part] of parts.entries())
@@ -145,10 +144,16 @@ export class Director {
     return { ...rested, text };
   }
 
+  /** Frames of a window: no more than the model has seen, where two overlaps fit in that. */
+  window() {
+    return Math.min(WINDOW, Math.max(2 * OVERLAP, round((this.settings.maxSeconds ?? WINDOW / FPS) * FPS)));
+  }
+
   /** What one clause becomes, and what is known of its frames; they are `exactly` so many. */
   async stretch(clause, seconds, seed, exactly = null) {
     if (exactly !== null) clause = { ...clause, seconds: exactly / FPS };
     const { text, count } = clause, afresh = this.beginsStanding(text);
+    if (clause.steps !== null && clause.seconds === null) clause = { ...clause, seconds: await this.stepping(clause, seed) };
     seconds = clause.seconds ?? seconds;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
@@ -171,6 +176,13 @@ export class Director {
   async turns({ degrees, metres, count, text }) {
     if (degrees !== null || this.nearest(text) === "spin") return true;
     return metres === null && count === 1 && (await this.bend(text)) !== 0;
+  }
+
+  /** Seconds of the clause's steps at its own pace; null where it does not go. */
+  async stepping({ steps, text }, seed) {
+    if (!STEPPING.includes(this.nearest(text))) return null;
+    const { speed } = await naturalGait(this.sampler, text, seed);
+    return steps * Math.sqrt((60 * WALK_RATIO) / speed);
   }
 
   /** Degrees by which a walk or a run turns that is to turn, else 0: seen in what the network makes of it. */
@@ -242,12 +254,14 @@ export class Director {
   miss(clause, frames) {
     const wanted = this.wanted(clause.text), action = this.nearest(clause.text), side = this.reader.sideOf(clause.text);
     if (action === null || frames < LEAST * FPS) return null;
-    const rests = this.scope.meta.gestures.includes(action);
+    const rests = this.scope.meta.gestures.includes(action), latest = this.window();
     if (wanted === null && !rests) return null;
     return (features) => {
       const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
       const count = clause.count > 1 ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));
+      if (found) // one bad window is none of those that follow, and feet are cleaned up yet
+        found = Number(!wanted(measure(postProcess(cut(features, Math.max(made - latest, 0), made), this.settings.post, {}))));
       if (count !== null) found = Math.abs(count - round((clause.count * made) / frames));
       return found + UNEASY * Number(rests && made >= frames && !endsAtRest(motion));
     };

@@ -1,15 +1,15 @@
 // What a sentence says of order and measure (src/shared/pipelines/sentence.py, whose patterns come
-// with the model): clauses { text, count, degrees, metres, seconds, meanwhile, side }.
+// with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
-const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, meanwhile: "", side: "both" });
+const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both" });
 
 export const isPlain = (clause) =>
-  clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null
+  clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
   && !clause.meanwhile && clause.side === "both";
 
 function strip(text, characters = EDGES) {
@@ -29,6 +29,9 @@ const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [mat
 const differ = (first, second, sure = SURE) =>
   Math.min(first.certainty, second.certainty) > sure && first.action !== second.action;
 
+/** Whether it says how far to go or to turn. */
+const isFar = ({ metres, steps, degrees }) => metres !== null || steps !== null || degrees !== null;
+
 const opposite = (one, other) => one !== other && one !== "both" && other !== "both";
 
 /** Of two partings, is the first one at least as good? */
@@ -43,8 +46,8 @@ const best = (ways) => ways.reduce((found, way) => (asGood(found, way) ? found :
 export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
-  constructor({ patterns, numbers, adverbs, angles, others, plainly, most, maxCount }, read) {
-    Object.assign(this, { numbers, adverbs, angles, others, plainly, most, maxCount, read });
+  constructor({ patterns, ...words }, read) {
+    Object.assign(this, words, { read });
     this.first = {}; this.each = {}; this.head = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
@@ -108,7 +111,8 @@ export class SentenceReader {
   beginsAfter(text, start, stop) {
     const said = text.slice(start, stop), word = stripStart(said);
     const after = this.head.after.exec(text.slice(stop - word.length));
-    if (after === null || this.head.seconds.test(text.slice(stop - word.length + after[0].length))) return false;
+    const rest = after === null ? "" : text.slice(stop - word.length + after[0].length);
+    if (after === null || this.head.seconds.test(rest) || this.head.minutes.test(rest)) return false;
     return after[0].trimEnd().length > stripEnd(word).length;
   }
 
@@ -144,18 +148,19 @@ export class SentenceReader {
       .map(([stop], i) => [borders[i][1], stop])
       .filter(([start, stop]) => strip(text.slice(start, stop)));
     const asides = pieces.map((piece, place) => this.isAside(text.slice(...piece), !place));
-    // The best ways up to a piece, one for each action and side of their last part.
-    const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both" }]])];
+    // The best ways up to a piece, one for what their last part is.
+    const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both", far: false }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
       const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: way.passed + 1 }]));
       for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
         if (asides[start] && (start || asides.slice(0, stop).every(Boolean))) continue; // stays with what stands before it, or else behind it
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
-        const { action, certainty } = this.reading(part), side = this.sideOf(part), last = `${action} ${side}`;
-        const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side));
+        const { action, certainty } = this.reading(part), side = this.sideOf(part), far = isFar(this.measured(part));
+        const last = `${action} ${side} ${far}`;
+        const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side) || (far && way.far));
         if (!before.length || certainty <= SURE) continue;
         const { parts, passed, certainty: sum } = best(before);
-        const way = { parts: [...parts, part], passed, certainty: sum + certainty, action, side };
+        const way = { parts: [...parts, part], passed, certainty: sum + certainty, action, side, far };
         if (!here.has(last) || asGood(way, here.get(last))) here.set(last, way);
       }
       ways.push(here);
@@ -269,17 +274,22 @@ export class SentenceReader {
   measured(text) {
     let clause = plainClause(text);
     const side = this.sideOf(text.replace(this.each.angle, " "));
-    for (const name of ["degrees", "metres", "seconds"]) {
+    for (const [name, [field, factor, least]] of Object.entries(this.units)) {
       const match = this.first[name].exec(clause.text);
-      if (!match) continue;
-      const value = this.value(match.groups.number);
-      if ((name === "degrees" && value < 15) || !(value > 0 && value <= this.most[name])) continue;
-      clause = { ...clause, text: this.without(clause.text, match), [name]: value };
+      const number = match ? this.value(match.groups.number) : NaN;
+      if (!(number >= least)) continue;
+      const { half, manner, noun } = match.groups;
+      const value = (number + (half ? 0.5 : 0)) * factor + (clause[field] ?? 0); // a minute and ten seconds
+      if (!(value > 0 && value <= this.most[field])) continue;
+      const before = clause.text.slice(0, match.index);
+      const stays = name === "steps" && (!before.trim() || this.first.takes.test(before)) ? (manner ?? "") + this.steps[bare(noun)] : "";
+      const rest = this.without(clause.text, match, stays);
+      if (rest || name !== "steps") clause = { ...clause, text: rest, [field]: value };
     }
     const angle = clause.degrees === null && side !== "both" && this.first.angle.exec(clause.text);
     if (angle) clause = { ...clause, degrees: this.angles[bare(angle[0])] };
     if (clause.degrees !== null) return { ...clause, degrees: (side === "right" ? -1 : 1) * clause.degrees };
-    return clause.metres === null && clause.seconds === null ? this.counted(clause) : clause;
+    return clause.metres === null && clause.seconds === null && clause.steps === null ? this.counted(clause) : clause;
   }
 
   counted(clause) {
@@ -299,8 +309,8 @@ export class SentenceReader {
     return this.numbers[bare(text)] ?? Number(text.replace(",", "."));
   }
 
-  without(text, match) {
-    return this.trimmed(`${text.slice(0, match.index).trimEnd()} ${text.slice(match.index + match[0].length).trimStart()}`);
+  without(text, match, stays = "") {
+    return this.trimmed([text.slice(0, match.index).trimEnd(), ...(stays ? [stays] : []), text.slice(match.index + match[0].length).trimStart()].join(" "));
   }
 
   trimmed(text) {

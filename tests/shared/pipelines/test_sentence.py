@@ -90,7 +90,7 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("elle marche jusqu'au moment où elle saute", ["elle marche", "elle saute"]),
         ("lauf bis zur Tür, spring", ["lauf bis zur Tür", "spring"]),
         ("歩いてお辞儀", ["歩いて", "お辞儀"]),
-        ("走两步鞠躬", ["走两步", "鞠躬"]),
+        ("走两步鞠躬", ["走", "鞠躬"]),
         ("先走再跳", ["走", "跳"]),
         ("left up, right down", ["left up, right down"]),
         ("waves, arms only, then bows", ["waves, arms only", "bows"]),
@@ -166,6 +166,33 @@ def test_other_words_are_left_alone(sentence: str):
         ("walk for five seconds", Clause("walk", seconds=5)),
         ("marche pendant cinq secondes", Clause("marche", seconds=5)),
         ("走五秒钟", Clause("走", seconds=5)),
+        ("someone walks for a minute", Clause("someone walks", seconds=60)),
+        ("run for about two minutes and a half", Clause("run", seconds=150)),
+        ("walk one minute and ten seconds", Clause("walk", seconds=70)),
+        ("run half a minute", Clause("run", seconds=30)),
+        ("corre medio minuto", Clause("corre", seconds=30)),
+        ("elle court une minute et demie", Clause("elle court", seconds=90)),
+        ("geh anderthalb Minuten lang", Clause("geh", seconds=90)),
+        ("1分間歩く", Clause("歩く", seconds=60)),
+        ("走半分钟", Clause("走", seconds=30)),
+        ("a second wave", Clause("a second wave")),
+        ("体を半分ひねる", Clause("体を半分ひねる")),
+        ("walk half a metre", Clause("walk", metres=0.5)),
+        ("walk a metre", Clause("walk", metres=1)),
+        ("walk 20 feet", Clause("walk", metres=6.096)),
+        ("walk ten yards", Clause("walk", metres=9.144)),
+        ("stand on two feet", Clause("stand on two feet")),
+        ("walk ten steps", Clause("walk", steps=10)),
+        ("take three steps forward", Clause("take steps forward", steps=3)),
+        ("take five small steps", Clause("take small steps", steps=5)),
+        ("10 steps", Clause("steps", steps=10)),
+        ("take a step back", Clause("take a step back")),
+        ("a two-step dance", Clause("a two-step dance")),
+        ("da tres pasos hacia atrás", Clause("da pasos hacia atrás", steps=3)),
+        ("fait deux pas en avant", Clause("fait des pas en avant", steps=2)),
+        ("geh zehn Schritte zurück", Clause("geh zurück", steps=10)),
+        ("三歩下がる", Clause("下がる", steps=3)),
+        ("向前走三步", Clause("向前走", steps=3)),
     ],
 )
 def test_measures_are_read_and_taken_out(sentence: str, clause: Clause):
@@ -183,6 +210,17 @@ def test_each_clause_has_its_own_measures():
 @pytest.mark.parametrize("sentence", ["walk 900 metres", "turn 5000 degrees", "jump 1000 times"])
 def test_what_nobody_means_is_left_to_the_words(sentence: str):
     assert clauses(sentence)[0].plain
+
+
+def test_ways_and_turns_of_their_own_measure_are_clauses_of_their_own():
+    def walks(text: str) -> Reading:
+        return Reading("walk", 1.0)
+
+    there = [Clause("steps forward", steps=3), Clause("steps back", steps=2)]
+    assert clauses("three steps forward, two steps back", walks) == there
+    assert [clause.text for clause in clauses("walks slowly, sadly", walks)] == [
+        "walks slowly, sadly"
+    ]
 
 
 def test_words_that_two_languages_share_cost_no_time():

@@ -78,6 +78,40 @@ def test_an_angle_and_a_length_are_kept(starter: TextToMotion):
     assert np.linalg.norm(way) == pytest.approx(3, abs=0.1)
 
 
+@pytest.mark.parametrize(
+    ("sentence", "frames"),
+    [("he walks ten steps", (130, 165)), ("takes two steps to the left", (35, 60))],
+)
+def test_steps_take_the_time_of_the_pace(
+    starter: TextToMotion, sentence: str, frames: tuple[int, int]
+):
+    (motion,) = SentenceGenerator(starter).generate([sentence], seconds=2.0)
+    assert frames[0] <= motion.num_frames <= frames[1]
+
+
+def test_a_measure_is_no_cause_for_a_warning(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    plain = sentences.scope_warnings(["a person walks forward"])
+    assert sentences.scope_warnings(["a person walks forward for 60 seconds"]) == plain == [None]
+
+
+def test_one_bad_window_is_none_of_those_that_follow(
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch
+):
+    sentences = SentenceGenerator(starter)
+    monkeypatch.setitem(ACTIONS, "walk", lambda m: m.forward_net < 8.0)
+    asked = list[int]()
+    sample = starter.sample_features
+
+    def listening(*given: Any, **options: Any) -> Any:
+        asked.append(1)
+        return sample(*given, **options)
+
+    monkeypatch.setattr(starter, "sample_features", listening)
+    sentences.generate(["a person walks forward"], seconds=20.0)
+    assert len(asked) < 2 * 6  # six windows; the walk goes beyond eight metres in the third
+
+
 def test_a_gesture_begins_and_ends_with_hanging_arms(starter: TextToMotion):
     assert starter.scope is not None
     starter.scope = replace(starter.scope, gestures=("wave",))
