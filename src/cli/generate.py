@@ -86,7 +86,8 @@ def produce(request: Request) -> dict[str, Any]:
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
-            tell(f"note: no beat was found in {result['audio']}; the motion keeps its own time")
+            own = "keeps its own time" if request.path_alone or request.prompt else "stands"
+            tell(f"note: no beat was found in {result['audio']}; the body {own}")
         return result
     dancing = ("body", "body_model", "follow_path")
     for name in dancing:
@@ -230,7 +231,7 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
 
         path = read_path(drawn)
     generator, song, clock, style = listen(request, audio, bodies=True)
-    warnings = warn(generator.text.scope_warnings(said)) if said else [None]
+    lines = generator.text.scope_warnings(said) if said else [None]
     found = [
         generator.dance(
             song,
@@ -248,6 +249,9 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
         )
         for prompt, tag in zip(prompts, tags, strict=True)
     ]
+    # what is danced in figures the text model need not know
+    warnings = warn([None if each.ranked[0].figures else line
+                     for each, line in zip(found, lines, strict=True)])  # fmt: skip
     rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
     for place, row in enumerate(rows):
         row |= {"seed": request.seed, "warning": warnings[place // request.kept]}

@@ -55,12 +55,16 @@ class Manner:
     arms: float = 1.0
 
     def __and__(self, other: "Manner") -> "Manner":
-        """Both at once."""
+        """Both at once: who is old and tired is bent as far as one who is either."""
+
+        def both(one: float, another: float) -> float:
+            return max(one, another, key=abs) if one * another > 0 else one + another
+
         return Manner(
-            self.stoop + other.stoop,
-            self.bow + other.bow,
-            self.knees + other.knees,
-            self.arms * other.arms,
+            both(self.stoop, other.stoop),
+            both(self.bow, other.bow),
+            both(self.knees, other.knees),
+            1 + both(self.arms - 1, other.arms - 1),
         )
 
 

@@ -54,11 +54,13 @@ class Wish:
         kinds: only of these; empty = of any that stay on their feet.
         energy: the share of figures, by energy, to take: (0, 0.4) is calm.
         manner: how they are carried.
+        unread: what else it says, that no figure shows.
     """
 
     kinds: frozenset[str] = frozenset()
     energy: tuple[float, float] = (0.0, 1.0)
     manner: Manner = PLAIN
+    unread: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -417,6 +419,8 @@ _WORD = re.compile(r"[^\W\d_]")
 def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
     """What a sentence asks of figures of some kinds; None where they cannot show it.
 
+    A kind that is named is danced, whatever else the sentence says.
+
     Args:
         sentence: in any of the six languages.
         kinds: of the figures that there are; their own names are understood, too.
@@ -439,9 +443,15 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
             wish = replace(wish, manner=wish.manner & manner, energy=energy or wish.energy)
         elif about in ENERGY_OF:
             wish = replace(wish, energy=ENERGY_OF[about])
-    if not dances or _WORD.search(rest) or not wanted <= set(kinds):
+    unread = " ".join(rest.split()) if _WORD.search(rest) else ""
+    if not dances or (unread and not wanted) or not wanted <= set(kinds):
         return None
-    return replace(wish, kinds=frozenset(wanted))
+    return replace(wish, kinds=frozenset(wanted), unread=unread)
+
+
+def named_kinds() -> set[str]:
+    """Kinds that words of some language name, whether or not there is a figure of them."""
+    return {what for about, what in _words().values() if about == "kinds"}
 
 
 @cache

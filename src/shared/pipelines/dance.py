@@ -29,11 +29,12 @@ from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
-from .choreography import Choreographer, Wish, wish_of
+from .choreography import Choreographer, Wish, named_kinds, wish_of
 from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition
 from .stream import Passage
+from .text import SentenceGenerator
 
 log = logging.getLogger(__name__)
 
@@ -41,6 +42,7 @@ SPACE = "starter-space"
 SECTION = 6.0  # seconds, about; whole bars where a beat is known
 HEARD = 150  # frames that the audio tower hears at once: it learned from five seconds at most
 SHORTEST = 40  # frames of them
+CLAUSE = 4.0  # seconds of a clause that does not dance and names no length
 SPEED_WIDTH, HEIGHT_WIDTH, ENERGY_WIDTH = 0.6, 0.12, 0.5  # m/s, m, share: one unit of logit
 
 
@@ -260,10 +262,11 @@ class SongPerformer:
             UserError: as `Performer.improvise`.
         """
         frames, made = song.condition.shape[1], []
+        wish = self._wish(prompt)
         for number in range(num_samples):
             own = candidate_seed(seed, song.seed, number)
             told = _from(progress, number * frames, num_samples * frames)
-            dance = self._in_figures(song, prompt, own, told)
+            dance = None if wish is None else self._in_figures(song, wish, prompt, own, told)
             if dance is None:
                 passages = self._passages(song, None, prompt, tag, own)
                 dance = self.performer.improvise(
@@ -277,16 +280,35 @@ class SongPerformer:
             made.append(dance)
         return self._ranked(made, song, prompt)
 
+    def _wish(self, prompt: str | None) -> Wish | None:
+        """What is asked of recorded figures; None where they do not show it. Says what they do
+        not show of a sentence that names a kind of them."""
+        if self.choreographer is None or prompt is None:
+            return None if self.choreographer is None else Wish()
+        here = self.choreographer.kinds
+        wish = wish_of(prompt, {*here, *named_kinds()})
+        if wish is None or not wish.kinds:
+            return wish
+        if missing := wish.kinds - set(here):
+            log.warning("the memory holds no figure of %s", " or ".join(sorted(missing)))
+            wish = replace(wish, kinds=wish.kinds - missing)
+        if wish.kinds and wish.unread:
+            log.warning(
+                "of %r figures of %s are danced, in any order; they do not show %r",
+                prompt, " and ".join(sorted(wish.kinds)), wish.unread,
+            )  # fmt: skip
+        return wish if wish.kinds else None
+
     def _in_figures(
-        self, song: SongCondition, prompt: str | None, seed: int, progress: Progress | None
+        self,
+        song: SongCondition,
+        wish: Wish,
+        prompt: str | None,
+        seed: int,
+        progress: Progress | None,
     ) -> Performance | None:
-        """A dance of recorded figures; None where they do not show what is asked."""
-        if self.choreographer is None:
-            return None
-        kinds = self.choreographer.kinds
-        wish = Wish() if prompt is None else wish_of(prompt, kinds)
-        if wish is None:
-            return None
+        """A dance of recorded figures; None where none fits the song."""
+        assert self.choreographer is not None, "a wish is asked of figures"
         dancer, own = FigureDancer(self.choreographer, self.performer.generator), self.performer
         found = dancer.dance(
             song,
@@ -303,11 +325,13 @@ class SongPerformer:
                 )
             return None
         motion, figures = found
-        if wish.kinds and not wish.kinds & {figure.kind for figure in figures}:
+        others = [figure for figure in figures if wish.kinds and figure.kind not in wish.kinds]
+        if others:
             log.warning(
-                "no figure of %s fits the tempo of this song: %s is danced instead",
+                "%.0f s of this song have no figure of %s that fits: %s danced instead",
+                sum(figure.times[-1] - figure.times[0] for figure in others),
                 " or ".join(sorted(wish.kinds)),
-                ", ".join(sorted({figure.kind for figure in figures})),
+                ", ".join(sorted({figure.kind for figure in others})),
             )
         if progress is not None:
             progress(motion.num_frames, motion.num_frames)
@@ -375,10 +399,32 @@ class SongPerformer:
     ) -> Sequence[Passage]:
         frames = song.condition.shape[1] if path is None else path.num_frames
         if prompt is not None:
-            return [Passage(prompt, frames, tag)]
+            return self._clauses(prompt, frames, tag)
         assert self.prompter is not None, "give a prompt, or a prompter that finds one"
         phase = None if song.phase is None else song.phase[:frames]
         return self.prompter.passages(song.condition[:, :frames], phase, path, seed=seed)
+
+    def _clauses(self, prompt: str, frames: int, tag: str | None) -> Sequence[Passage]:
+        """The clauses of a sentence, in order: what dances has the time that the others leave."""
+        generator = self.performer.generator
+        parts, fps = SentenceGenerator(generator).clauses(prompt), generator.card.fps
+        if len(parts) == 1 or frames < len(parts) * fps:
+            return [Passage(prompt, frames, tag)]
+        own = [part.seconds or (None if self._dances(part.text) else CLAUSE) for part in parts]
+        fixed = [0 if seconds is None else round(seconds * fps) for seconds in own]
+        dancing = own.count(None)
+        left = frames - sum(fixed)
+        if not dancing or left < dancing * fps:  # alike
+            fixed, dancing, left = [0] * len(parts), len(parts), frames
+        share, lengths = left // dancing, list[int]()
+        for length in fixed:
+            lengths.append(length or share)
+        lengths[-1] += frames - sum(lengths)
+        return [Passage(part.text, n, tag) for part, n in zip(parts, lengths, strict=True)]
+
+    def _dances(self, text: str) -> bool:
+        found = self.performer.generator.read(text)
+        return found is not None and found.nearest[:1] == ["dance"]
 
     def _embedded(self, passages: Sequence[Passage]) -> Tensor:
         return self.performer.generator.encode_prompts([each.text for each in passages]).pooled

@@ -1,5 +1,6 @@
 """Takes by a table or by a folder."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +9,10 @@ import pytest
 from src.shared.errors import UserError
 from src.shared.formats.arrays import write_npz
 from src.shared.io.storage import Address
-from src.shared.memory.build import build_figures, every_file, read_takes, repeated
+from src.shared.memory.build import build_figures, every_file, read_takes, repeated, without_flips
 from src.shared.memory.figures import FigureMemory, is_figure_memory
+from src.shared.motion.motion import Motion
+from src.shared.motion.skeleton import JOINT_INDEX
 from tests.files import files_of
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.memory.tiny_figures import stepping
@@ -86,3 +89,24 @@ def test_bad_tables_are_refused(folder: Path, text: str, named: str) -> None:
 def test_a_loop_goes_round() -> None:
     twice = repeated(swinging_arms(frames=60), 2)
     np.testing.assert_array_equal(twice.quaternions[:60], twice.quaternions[60:])
+
+
+def turned(take: Motion, joint: str, degrees: float, frames: slice) -> Motion:
+    """A motion whose joint is turned about its own X."""
+    own = take.quaternions.copy()
+    half = np.radians(degrees) / 2
+    own[frames, JOINT_INDEX[joint]] = [np.cos(half), np.sin(half), 0.0, 0.0]
+    return replace(take, quaternions=own)
+
+
+def test_heads_and_hands_do_not_turn_over() -> None:
+    take = stepping(0.5, 120)
+    np.testing.assert_allclose(without_flips(take).quaternions, take.quaternions, atol=1e-6)
+    hanging = without_flips(turned(take, "head", 178.0, slice(None)))
+    np.testing.assert_allclose(hanging.quaternions[:, JOINT_INDEX["head"], 0], 1.0)
+    flipping = without_flips(turned(take, "r_wrist", 170.0, slice(20, 23)))
+    before, after = (each.quaternions[:, JOINT_INDEX["r_wrist"]] for each in (take, flipping))
+    np.testing.assert_allclose(np.abs(before), np.abs(after), atol=0.05)  # as if nothing had been
+    others = [name for name in JOINT_INDEX if name != "r_wrist"]
+    rows = [JOINT_INDEX[name] for name in others]
+    np.testing.assert_allclose(flipping.quaternions[:, rows], take.quaternions[:, rows], atol=1e-6)

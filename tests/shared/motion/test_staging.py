@@ -40,7 +40,8 @@ def places(manner: Manner) -> np.ndarray:
 def test_who_is_plain_moves_as_ever() -> None:
     features = encode_features(tiny_figures().takes[0].motion)
     assert carried(features, PLAIN, 30.0) is features
-    assert Manner(stoop=10, arms=0.5) & Manner(knees=5, arms=0.5) == Manner(10, 0, 5, 0.25)
+    assert Manner(stoop=10, arms=0.5) & Manner(knees=5, arms=0.5) == Manner(10, 0, 5, 0.5)
+    assert Manner(stoop=30) & Manner(stoop=22, bow=4) & Manner(stoop=-6) == Manner(24, 4)
 
 
 def test_trunk_and_knees_bend_and_feet_stay_on_the_floor() -> None:

@@ -205,6 +205,11 @@ def test_kinds_and_energy(sentence: str, kind: str, energy: tuple[float, float])
     assert wish_of(sentence, KINDS) == Wish(frozenset({kind}), energy)
 
 
+def test_a_kind_is_danced_whatever_else_is_said() -> None:
+    wish = wish_of("a robot dances salsa, then freezes", KINDS)
+    assert wish == Wish(frozenset({"salsa"}), unread="robot , then freezes")
+
+
 @pytest.mark.parametrize(
     "sentence",
     ["an old man dances", "ein alter Mann tanzt", "un homme âgé danse", "老人在跳舞",

@@ -12,8 +12,18 @@ from src.shared.config_audio import AudioTowerConfig
 from src.shared.config_schema import NetworkConfig
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
+from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.pipelines.dance import PROMPTS, DancePrompt, DancePrompter, sections
+from src.shared.pipelines.body import Performer
+from src.shared.pipelines.choreography import Choreographer
+from src.shared.pipelines.dance import (
+    PROMPTS,
+    DancePrompt,
+    DancePrompter,
+    SongPerformer,
+    sections,
+)
+from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator, tiny_network
 
 
@@ -104,3 +114,30 @@ def test_the_same_seed_says_the_same(caplog: pytest.LogCaptureFixture) -> None:
     )
     assert len({p.text for p in PROMPTS}) == len(PROMPTS)
     assert isinstance(generator.network, NetworkConfig)
+
+
+@pytest.fixture(scope="module")
+def starter() -> TextToMotion:
+    return TextToMotion.from_pretrained("starter", device="cpu")
+
+
+def test_clauses_that_no_figure_shows_are_done_in_order(starter: TextToMotion) -> None:
+    dancers = SongPerformer(Performer(starter))
+    found = dancers._clauses("a person dances, then bows", 600, None)
+    assert [(each.text, each.frames) for each in found] == [("a person dances", 480), ("bows", 120)]
+    alike = dancers._clauses("a person waves, then bows", 600, None)
+    assert [each.frames for each in alike] == [300, 300]
+    assert len(dancers._clauses("a person dances", 600, None)) == 1
+
+
+def test_what_the_figures_do_not_show_is_said(
+    starter: TextToMotion, caplog: pytest.LogCaptureFixture
+) -> None:
+    choreographer = Choreographer(tiny_figures())
+    dancers = SongPerformer(Performer(starter), choreographer=choreographer)
+    assert dancers._wish("a person breakdances") is None
+    assert "the memory holds no figure of breakdance" in caplog.text
+    wish = dancers._wish("a robot dances salsa")
+    assert (
+        wish is not None and wish.kinds == {"salsa"} and "they do not show 'robot'" in caplog.text
+    )
