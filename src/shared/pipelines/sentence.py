@@ -11,6 +11,7 @@ import re
 import unicodedata
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, UNITS, all_words,
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
+ARROW, STANDS = " → ", "stands still"
 MOST_PIECES = 8  # between commas, that may be one part
 
 
@@ -42,6 +44,7 @@ Read = Callable[[str], Reading]
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
+ABOUT = 180.0  # degrees, which need no side
 
 
 @dataclass(frozen=True)
@@ -93,9 +96,26 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], read) if others else None
-            found.append(pair or _parted(first, read) or _measured(first))
+            clause = pair or _parted(first, read) or _measured(first)
+            found.append(_as_before(found[-1], clause) if found else clause)
             pieces = others[1:] if pair else others
     return [clause for clause in found if clause.text] or [Clause(sentence)]
+
+
+def _as_before(before: Clause, clause: Clause) -> Clause:
+    """A clause that names nothing but a side ("and then to the left") does what the one before it
+    does, to that side."""
+    words = all_words()
+    if clause.degrees is not None or not _is_aside(clause.text, first=True):
+        return clause
+    said, other = (
+        next(filter(None, (side.search(each.text) for side in (words.left, words.right))), None)
+        for each in (clause, before)
+    )
+    if said is None or other is None:
+        return clause
+    text = before.text
+    return replace(clause, text=f"{text[: other.start()]}{said[0]}{text[other.end() :]}")
 
 
 # ---------------------------------------------------------------- order
@@ -106,21 +126,31 @@ def _plain(text: str) -> str:
 
 
 def tidied(sentence: str) -> str:
-    """A sentence without greeting and thanks, with plain words for idioms and arrows for the
-    numbers of a list; it itself where it has nothing of these."""
+    """A sentence without greeting and thanks, with plain words for idioms and pauses and arrows for
+    the numbers of a list; it itself where it has nothing of these."""
     words, plain = all_words(), _plain(sentence)
     text = _plain(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
     text = words.greeting.sub("", text)
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     text = words.idiom.sub(lambda said: words.plainly[bare(_plain(said[0]))], text)
+    text = words.undone.sub("", text)
+    for name, pause in words.pauses.items():
+        factor = UNITS[name.partition("_")[2]][1]
+        text = pause.sub(partial(_pause, factor=factor), text)
+    text = text.removeprefix(ARROW.lstrip())
     numbers = list(NUMBERED.finditer(text))
     if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
         lead = text[: numbers[0].start()].strip()
         if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
             text = text[numbers[0].end() :]
-        text = NUMBERED.sub(" → ", text)
+        text = NUMBERED.sub(ARROW, text)
     return sentence if text == plain else text
+
+
+def _pause(said: re.Match[str], factor: float) -> str:
+    seconds = (_value(said["number"]) + 0.5 * bool(said["half"])) * factor
+    return f"{ARROW}{STANDS} for {seconds:g} seconds{ARROW}" if seconds else said[0]
 
 
 def _ordered(text: str, read: Read) -> list[str]:
@@ -206,7 +236,9 @@ def _joined(text: str, read: Read) -> list[str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own; what
     does not, stays with what stands beside it, but for what is denied at the head ("don't run, …").
     """
-    if denial := all_words().denial.match(text):
+    denial = all_words().denial.search(text)
+    who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
+    if denial and not (who and read(who).certainty > SURE):
         rest = _trimmed(text[denial.end() :])
         if read(_measured(rest).text).certainty > SURE:  # not in "don't move, please"
             text = rest
@@ -426,8 +458,11 @@ def _measured(text: str) -> Clause:
         if rest or name != "steps":
             found: dict[str, Any] = {"text": rest, field: value}
             clause = replace(clause, **found)
-    if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
-        clause = replace(clause, degrees=words.angles[bare(match[0])])
+    if clause.degrees is None and (match := words.angle.search(clause.text)):
+        angle = words.angles[bare(match[0])]
+        about = angle == ABOUT and not words.corner.search(text) and _counted(clause).count == 1
+        if side != "both" or about:
+            clause = replace(clause, degrees=angle)
     if clause.degrees is not None:
         sign = -1.0 if side == "right" else 1.0
         return replace(clause, degrees=sign * clause.degrees)

@@ -60,6 +60,7 @@ GOING = frozenset({"walk", "run", "crouch-walk"})
 STEPPING = GOING | {"side-step"}
 WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
+TURN_SECONDS = 2.2  # of a quarter on the spot, led
 TURNING = math.radians(20.0)  # a second: less is no turn
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
@@ -307,6 +308,8 @@ class SentenceGenerator:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
         if clause.degrees is not None or self._nearest(clause.text) == "spin":
             return True
+        if self._nearest(clause.text) == "turn" and side_of(clause.text) != "both":
+            return True
         return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
 
     def _bend(self, text: str) -> float:
@@ -321,7 +324,7 @@ class SentenceGenerator:
         if text not in self._bent:
             turning = natural_gait(self.generator, Passage(text, 1), Sampling()).turning
             left = turning > 0 if side == "both" else side == "left"
-            angle = 0.0 if abs(turning) < TURNING else 360.0 if around else CORNER
+            angle = 360.0 if around else 0.0 if abs(turning) < TURNING else CORNER
             self._bent[text] = angle if left else -angle
         return self._bent[text]
 
@@ -459,15 +462,22 @@ class SentenceGenerator:
         fps = self.card.fps
         if clause.degrees is not None:
             return turned(clause.degrees, fps, clause.seconds)
+        side = side_of(clause.text)
+        if self._nearest(clause.text) == "turn" and side != "both":
+            angle = CORNER if side == "left" else -CORNER
+            return turned(angle, fps, seconds, max((seconds - TURN_SECONDS) / 2, TURN_REST))
         if bend := self._bend(clause.text):
             if clause.seconds is None:
                 seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
-            rest = (seconds - CORNER_SECONDS) / 2 if abs(bend) == CORNER else 0.0
-            given = turned(bend, fps, seconds, max(rest, TURN_REST))
+            if abs(bend) == CORNER:
+                rest = max((seconds - CORNER_SECONDS) / 2, TURN_REST)
+                given = turned(bend, fps, seconds, rest)
+            else:
+                given = circled(bend, fps, seconds)
             sway = self._sway(Passage(clause.text, len(given)), sampling)
             given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
             return given
-        side, around = side_of(clause.text), 360.0 / SPIN_SPEED
+        around = 360.0 / SPIN_SPEED
         circles = max(clause.count, 1)
         if circles == 1:
             circles = max(round((seconds - 2 * TURN_REST) / around), 1)
@@ -515,6 +525,14 @@ def turned(
     rate = torch.zeros(len(given))
     rate[rest : rest + moving] = torch.as_tensor(np.diff(heading) * fps, dtype=torch.float32)
     given.values[:, ROOT_ROW, YAW_RATE] = rate
+    given.known[:, ROOT_ROW, YAW_RATE] = True
+    return given
+
+
+def circled(degrees: float, fps: float, seconds: float) -> Constraint:
+    """A heading that turns by so many degrees, as fast at any moment: a way that closes."""
+    given = Constraint.free(round(seconds * fps))
+    given.values[:, ROOT_ROW, YAW_RATE] = math.radians(degrees) / seconds
     given.known[:, ROOT_ROW, YAW_RATE] = True
     return given
 

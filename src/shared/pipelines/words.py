@@ -21,6 +21,7 @@ UNITS = {  # of a sentence: what they measure, how much of it one is, and the le
     "seconds": ("seconds", 1.0, 0.0),
     "feet": ("metres", 0.3048, 3.0),  # one and two are a body's own
     "yards": ("metres", 0.9144, 0.0),
+    "centimetres": ("metres", 0.01, 20.0),  # fewer are how far a hand is raised
     "metres": ("metres", 1.0, 0.0),
     "steps": ("steps", 1.0, 2.0),  # one step is mostly a way of saying where to
 }
@@ -62,7 +63,7 @@ class Words:
             sides |= table.get("other", {})
         self.numbers = {bare(word): value for word, value in numbers.items()}
         self.adverbs = {bare(word): value for word, value in adverbs.items()}
-        self.angles = {bare(word): float(value) for word, value in angles.items()}
+        self.angles = {bare(word.rstrip("$")): float(value) for word, value in angles.items()}
         joints = all_of("and")
         self.comma = re.compile(rf"\s*{_COMMAS}\s*")
         self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
@@ -110,7 +111,7 @@ class Words:
         self.angle = re.compile(_any(angles), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
-        ready = rf"(?:(?<![\w.,])|(?<={CJK_SIGN}))"
+        ready = rf"(?:(?<![\w.])(?<!\d,)|(?<={CJK_SIGN}))"
         articles = all_of("articles")
         fractions = {word: value for table in tables for word, value in table["fractions"].items()}
         self.numbers |= {bare(word): value for word, value in fractions.items()}
@@ -128,6 +129,19 @@ class Words:
             return rf"{amount}[\s-]*{_any(all_of(name))}{half}"
 
         self.units = {name: re.compile(measure(name), re.I) for name in UNITS}
+        between = rf"(?:\s*(?:{_STOPS}|{_any(joints)}|{then})\s*|\s+)"
+        after, later = _any(all_of("after_time")), _any(all_of("later_time"))
+        self.pauses = {
+            f"{when}_{name}": re.compile(f"{pattern}{_COMMAS}?", re.I)
+            for name in ("seconds", "minutes")
+            for when, pattern in (
+                ("after", rf"{between}*(?<!{_SIGN}){after}\s*{measure(name)}"),
+                ("later", rf"(?:^|{between}){measure(name)}\s*{later}(?!\s+(?:de|du|des)\b)"),
+            )
+        }
+        ends = rf"(?=\s*(?:$|{_STOPS}|{_any(joints)}|{then}))"
+        undone = rf"{_any(all_of('undone'))}(?:\s*{_any(all_of('again'))})*"
+        self.undone = re.compile(rf"(?<=\S){between}+{undone}{ends}", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
@@ -167,7 +181,8 @@ def _whole(word: str) -> tuple[str, str, str]:
     """A word's pattern, and what must stand before and behind it."""
     stays, bar, word = word.rpartition("|")
     word, slash, never = word.partition("/")
-    follows = f"(?![{never}])" if slash else ""
+    follows = f"(?![{never}])" if slash else r"(?=\W*$)" if word.endswith("$") else ""
+    word = word.removesuffix("$")
     if bar:
         before = f"(?<![{stays[1:]}])" if stays.startswith("^") else f"(?<={stays})"
         return before, word, follows
@@ -224,9 +239,10 @@ def javascript_patterns() -> dict[str, Any]:
     ours = all_words()
     tables = ("numbers", "adverbs", "angles", "others", "plainly", "steps")
     said = {name: vars(ours)[name] for name in tables}
-    alone = {name: each for name, each in vars(ours).items() if name not in {*said, "units"}}
+    apart = {*said, "units", "pauses"}
+    alone = {name: each for name, each in vars(ours).items() if name not in apart}
     found = {
         name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
-        for name, each in (alone | ours.units).items()
+        for name, each in (alone | ours.units | ours.pauses).items()
     }
     return {"patterns": found, "units": UNITS, "most": MOST, "maxCount": MAX_COUNT} | said

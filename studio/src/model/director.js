@@ -11,7 +11,7 @@ import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./p
 import { isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const GOING = ["walk", "run", "crouch-walk"], STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURNING = (20 * Math.PI) / 180;
+const GOING = ["walk", "run", "crouch-walk"], STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
@@ -175,6 +175,7 @@ export class Director {
   /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */
   async turns({ degrees, metres, count, text }) {
     if (degrees !== null || this.nearest(text) === "spin") return true;
+    if (this.nearest(text) === "turn" && this.reader.sideOf(text) !== "both") return true;
     return metres === null && count === 1 && (await this.bend(text)) !== 0;
   }
 
@@ -191,7 +192,7 @@ export class Director {
     if (!GOING.includes(this.nearest(text)) || !(around || side !== "both")) return 0;
     if (!this.bent.has(text)) {
       const { turning } = await naturalGait(this.sampler, text, 0), left = side === "both" ? turning > 0 : side === "left";
-      const angle = Math.abs(turning) < TURNING ? 0 : around ? 360 : CORNER;
+      const angle = around ? 360 : Math.abs(turning) < TURNING ? 0 : CORNER;
       this.bent.set(text, left ? angle : -angle);
     }
     return this.bent.get(text);
@@ -200,14 +201,17 @@ export class Director {
   /** By the angle that is named; round a corner or in a circle; else in full circles, as many as are named or as fill the seconds. */
   async turn({ degrees, text, count, seconds: named }, seconds, seed) {
     if (degrees !== null) return turned(degrees, named ?? undefined);
+    const side = this.reader.sideOf(text);
+    if (this.nearest(text) === "turn" && side !== "both")
+      return turned(side === "left" ? CORNER : -CORNER, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST));
     const bend = await this.bend(text);
     if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
     if (bend) {
-      const given = turned(bend, seconds, Math.max(Math.abs(bend) === CORNER ? (seconds - CORNER_SECONDS) / 2 : 0, TURN_REST));
+      const given = Math.abs(bend) === CORNER ? turned(bend, seconds, Math.max((seconds - CORNER_SECONDS) / 2, TURN_REST)) : circled(bend, seconds);
       for (const [t, rate] of (await this.sway(text, framesOf(given.values), seed)).entries()) given.values[t * WIDTH + ROOT + YAW_RATE] += rate;
       return given;
     }
-    const side = this.reader.sideOf(text), around = 360 / SPIN_SPEED;
+    const around = 360 / SPIN_SPEED;
     let circles = count;
     if (circles <= 1) circles = Math.max(round((seconds - 2 * TURN_REST) / around), 1);
     else if (named === null) seconds = circles * around + 2 * TURN_REST;
@@ -314,6 +318,16 @@ const lastFrames = (motion, frames) => ({
   root: motion.root.slice((motion.frames - frames) * 3),
   contacts: motion.contacts.slice((motion.frames - frames) * 2),
 });
+
+/** A heading that turns by so many degrees, as fast at any moment: a way that closes. */
+function circled(degrees, seconds) {
+  const given = freeConstraint(round(seconds * FPS));
+  for (let t = 0; t < framesOf(given.values); t++) {
+    given.values[t * WIDTH + ROOT + YAW_RATE] = (degrees * Math.PI) / 180 / seconds;
+    given.known[t * WIDTH + ROOT + YAW_RATE] = 1;
+  }
+  return given;
+}
 
 /** A heading that turns by so many degrees, positive to the left; not for so many seconds before and after. */
 function turned(degrees, seconds = Math.max(Math.abs(degrees) / TURN_SPEED, 1) + 2 * TURN_REST, still = TURN_REST) {

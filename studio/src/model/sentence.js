@@ -2,6 +2,8 @@
 // with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
+const ARROW = " → ", STANDS = "stands still", ABOUT = 180;
+const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
@@ -62,14 +64,24 @@ export class SentenceReader {
       for (let pieces = this.joined(whole); pieces.length;) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0]) : null;
-        found.push(pair ?? this.parted(first) ?? this.measured(first));
+        const clause = pair ?? this.parted(first) ?? this.measured(first);
+        found.push(found.length ? this.asBefore(found.at(-1), clause) : clause);
         pieces = pair ? others.slice(1) : others;
       }
     const real = found.filter((clause) => clause.text);
     return real.length ? real : [plainClause(sentence)];
   }
 
-  /** Without greeting and thanks, with plain words for idioms and arrows for the numbers of a list; it itself where it has none. */
+  /** A clause that names nothing but a side does what the one before it does, to that side. */
+  asBefore(before, clause) {
+    if (clause.degrees !== null || !this.isAside(clause.text, true)) return clause;
+    const [said, other] = [clause, before].map(({ text }) => this.first.left.exec(text) ?? this.first.right.exec(text));
+    if (!said || !other) return clause;
+    const { text } = before;
+    return { ...clause, text: text.slice(0, other.index) + said[0] + text.slice(other.index + other[0].length) };
+  }
+
+  /** Without greeting and thanks, with plain words for idioms and pauses and arrows for the numbers of a list; it itself where it has none. */
   tidied(sentence) {
     const text = this.withoutManners(sentence);
     return text === plain(sentence) ? sentence : text;
@@ -79,12 +91,18 @@ export class SentenceReader {
     let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
-    text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
+    text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]).replace(this.each.undone, "");
+    for (const [name, factor] of PAUSES)
+      text = text.replace(this.each[name], (...found) => {
+        const { number, half } = found.at(-1), seconds = (this.value(number) + (half ? 0.5 : 0)) * factor;
+        return seconds ? `${ARROW}${STANDS} for ${seconds} seconds${ARROW}` : found[0];
+      });
+    if (text.startsWith(ARROW.trimStart())) text = text.slice(ARROW.trimStart().length);
     const numbers = [...text.matchAll(NUMBERED)], [first] = numbers;
     if (numbers.length < 2 || !numbers.every((each, i) => Number(each[1]) === i + 1)) return text;
     const lead = text.slice(0, first.index).trim();
     if (/[:：]$/u.test(lead) || lead.split(/\s+/u).filter(Boolean).length < 3) text = text.slice(first.index + first[0].length);
-    return text.replace(NUMBERED, " → ");
+    return text.replace(NUMBERED, ARROW);
   }
 
   ordered(text) {
@@ -141,8 +159,11 @@ export class SentenceReader {
   }
 
   joined(text) {
-    const denial = this.head.denial.exec(text), rest = denial && this.trimmed(text.slice(denial[0].length));
-    if (denial && this.reading(rest).certainty > SURE) text = rest; // not in "don't move, please"
+    const denial = this.first.denial.exec(text);
+    if (denial && this.read(this.trimmed(text.slice(0, denial.index))).certainty <= SURE) {
+      const rest = this.trimmed(text.slice(denial.index + denial[0].length));
+      if (this.reading(rest).certainty > SURE) text = rest; // not in "don't move, please"
+    }
     const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
     const pieces = borders.slice(1)
       .map(([stop], i) => [borders[i][1], stop])
@@ -286,8 +307,12 @@ export class SentenceReader {
       const rest = this.without(clause.text, match, stays);
       if (rest || name !== "steps") clause = { ...clause, text: rest, [field]: value };
     }
-    const angle = clause.degrees === null && side !== "both" && this.first.angle.exec(clause.text);
-    if (angle) clause = { ...clause, degrees: this.angles[bare(angle[0])] };
+    const match = clause.degrees === null && this.first.angle.exec(clause.text);
+    if (match) {
+      const degrees = this.angles[bare(match[0])];
+      const about = degrees === ABOUT && !this.first.corner.test(text) && this.counted(clause).count === 1;
+      if (side !== "both" || about) clause = { ...clause, degrees };
+    }
     if (clause.degrees !== null) return { ...clause, degrees: (side === "right" ? -1 : 1) * clause.degrees };
     return clause.metres === null && clause.seconds === null && clause.steps === null ? this.counted(clause) : clause;
   }

@@ -182,6 +182,17 @@ def test_a_walk_turns_a_corner_or_goes_round(starter: TextToMotion):
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
 
 
+def test_a_quarter_turn_is_meant_and_circles_close(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    left, about, circle = sentences.generate(
+        ["a person turns left", "a person turns around", "walks in a small circle"], seconds=4.0
+    )
+    assert turn_of(left) == pytest.approx(90, abs=3)
+    assert abs(turn_of(about)) == pytest.approx(180, abs=3)
+    way = circle.root_position[-1] - circle.root_position[0]
+    assert np.linalg.norm(way[[0, 2]]) < 0.5 and abs(turn_of(circle)) > 350
+
+
 def test_a_pelvis_that_is_led_turns_with_its_legs(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     for motion in sentences.generate(["a person walks four metres", "walks round the corner left"]):
