@@ -536,12 +536,13 @@ def repeated(motion: Motion, times: int) -> Motion:
 BENT = {  # degrees from the rest pose, at most: of joints that capture knows by a marker or two
     **dict.fromkeys(("l_wrist", "r_wrist", "l_ankle", "r_ankle", "l_foot", "r_foot"), 120.0),
     **{"neck": 75.0, "head": 90.0},
+    **dict.fromkeys(("l_shoulder", "r_shoulder", "l_elbow", "r_elbow"), 180.0),  # snaps alone
 }
 SNAP = 40.0  # degrees in a frame
 
 
 def without_flips(motion: Motion) -> Motion:
-    """A motion whose head, hands and feet neither turn over nor snap from one frame to the next.
+    """A motion whose head, arms and feet neither turn over nor snap from one frame to the next.
 
     In some takes a head hangs upside down in its chest, or a hand turns over and back within three
     frames (CMU 60_06, 60_09). Such frames lead from the last sound one to the next; where a take
@@ -550,7 +551,7 @@ def without_flips(motion: Motion) -> Motion:
     turns = motion.quaternions.astype(np.float64).copy()
     for name, most in BENT.items():
         own = turns[:, JOINT_INDEX[name]]
-        sound = _degrees(own, np.array([1.0, 0.0, 0.0, 0.0])) < most
+        sound = _degrees(own, np.array([1.0, 0.0, 0.0, 0.0])) <= most
         snaps = _snaps(own)
         sound[np.unique(np.clip(snaps[:, None] + np.arange(-1, 3), 0, len(own) - 1))] = False
         mended = _led_over(own, sound)
