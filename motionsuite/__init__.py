@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from .src.shared.model.hub import pull, push_to_hub
     from .src.shared.motion.motion import Motion
     from .src.shared.motion.trajectory import MotionTrajectory as Trajectory
+    from .src.shared.pipelines.edit import continue_clips, edit_clip
     from .src.shared.pipelines.motion_generator import MotionGenerator, load
 
 __all__ = [
@@ -33,6 +34,8 @@ __all__ = [
     "Sampling",
     "Song",
     "Trajectory",
+    "continue_clips",
+    "edit_clip",
     "load",
     "models",
     "prepare",
@@ -49,6 +52,8 @@ _PLACES = {
     "Sampling": "shared.model.diffusion",
     "Song": "shared.audio.song",
     "Trajectory": "shared.motion.trajectory:MotionTrajectory",
+    "continue_clips": "shared.pipelines.edit",
+    "edit_clip": "shared.pipelines.edit",
     "load": "shared.pipelines.motion_generator",
     "models": "shared.model.checkpoint:list_models",
     "prepare": "shared.data.prepare",
@@ -84,4 +89,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)

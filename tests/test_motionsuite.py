@@ -6,10 +6,12 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import motionsuite
+from src.shared.errors import UsageError
 
 ROOT = Path(__file__).parents[1]
 FOREIGN = "MINE = 1\n"
@@ -68,3 +70,29 @@ def test_every_public_name_is_there_and_none_costs_an_import_before() -> None:
         motionsuite.nothing  # noqa: B018
     loaded = "import sys, motionsuite; print({'torch', 'numpy', 'typer'} & sys.modules.keys())"
     assert run(ROOT, ROOT, "-c", loaded) == "set()"
+
+
+@pytest.mark.parametrize(
+    ("prompts", "options", "line"),
+    [
+        (None, {}, "prompts is None"),
+        (["a", 3], {}, "prompts is"),
+        ("a person walks", {"seconds": 1e9}, "seconds 1000000000.0 is out of range"),
+        (["a", "b"], {"seconds": [1.0, 2.0, 3.0]}, "3 lengths for 2 prompts"),
+        ("a person walks", {"sampling": {"seed": 1}}, "sampling is"),
+    ],
+)
+def test_mistakes_are_named_before_the_work(
+    prompts: Any, options: dict[str, Any], line: str
+) -> None:
+    with pytest.raises(UsageError, match=line):
+        motionsuite.load("starter").generate(prompts, **options)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"seed": 1.5}, {"seed": 2**70}, {"steps": 0}, {"guidance_scale": float("nan")}],
+)
+def test_a_sampling_that_cannot_be_is_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(UsageError, match="must be a"):
+        motionsuite.Sampling(**wrong)

@@ -55,7 +55,7 @@ def generate(request: Request) -> None:
       motion-tools generate --audio song.mp3 --prompt "a proud old man dances"
     """
     several_windows = request.audio or request.given()
-    check_range("seconds", request.seconds, *((1.0, 7200.0) if several_windows else (0.3, 60.0)))
+    check_range("seconds", request.seconds, *((1.0, 7200.0) if several_windows else (0.3, 600.0)))
     options.check_folder("--out", request.out)
     if request.judge is not None and request.num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
@@ -387,7 +387,7 @@ def read_given(request: Request) -> "Given":
     names = options.parts(request.joints or "")
     if request.joints is not None and not names:
         raise UsageError("--joints is empty; name joints or groups, e.g. --joints left-arm,head")
-    joints = chosen_joints(names) if names else None
+    joints = chosen_joints(names) if names else None  # before a clip is read
     if request.edit is not None:
         clip = read_motion(request.edit)
         return edit_clip(clip, request.begin or 0.0, request.until, joints)

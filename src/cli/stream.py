@@ -13,7 +13,7 @@ from ..shared.errors import UsageError, UserError
 from . import options
 from .console import check_range, complain, tell
 
-AFTER = 4.0  # seconds of motion after the last sentence of a pipe
+AFTER = 4.0  # seconds of motion after a sentence of a pipe: before the next one, or the end
 VMC_PORT = 39539
 
 
@@ -99,6 +99,8 @@ def stream(
         try:
             for line in sys.stdin:
                 say(line)
+                if not sys.stdin.isatty():
+                    body.wait(AFTER)  # so that each line of a file is seen
         except (OSError, ValueError):  # closed while it was read
             pass
         if seconds is None and websocket is None:

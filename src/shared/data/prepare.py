@@ -38,7 +38,7 @@ from ..io.files import (
     write_text,
 )
 from ..io.jobs import finished_record, run_jobs
-from ..io.storage import Place, fetched
+from ..io.storage import Place, fetched, place
 from ..motion.features import encode_features, mirror_features
 from .captions.book import CaptionBook
 from .captions.language import mirror_labels
@@ -80,8 +80,8 @@ class _Job:
 
 
 def prepare(
-    sources: Sequence[Source],
-    out: Place,
+    sources: str | Path | Sequence[Source | str | Path],
+    out: str | Place,
     *,
     templates: Path | None = None,
     only_gaps: bool = False,
@@ -94,6 +94,7 @@ def prepare(
     """Prepare all clips of `sources` into the folder or address `out`; returns the report.
 
     Args:
+        sources: `MotionFolder`s and the like; folders and files of motion are opened as such.
         templates: caption templates of the user's own (see src/configs/captions).
         only_gaps: keep procedural clips only of what no captured clip shows (`fill_gaps`).
         mirror: add the mirror image of each clip, with left and right swapped in its captions.
@@ -106,7 +107,11 @@ def prepare(
         UsageError: two sources have one name.
     """
     book = CaptionBook.load(templates)
-    sources = tuple(sources)
+    sources = tuple(
+        MotionFolder.open(place(source)) if isinstance(source, str | Path) else source
+        for source in ([sources] if isinstance(sources, str | Path) else sources)
+    )
+    out = place(out)
     for name, number in Counter(source.name for source in sources).items():
         if number > 1:
             raise UsageError(

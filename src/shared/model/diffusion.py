@@ -14,6 +14,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
+from numbers import Integral, Real
 from typing import Any
 
 from ..config_schema import DiffusionConfig
@@ -42,6 +43,17 @@ class Sampling:
     steps: int | None = None
     sampler: str | None = None
     guidance_scale: float | None = None
+
+    def __post_init__(self) -> None:
+        given: dict[str, Any] = vars(self)
+        for name, least in (("seed", 0), ("steps", 1)):
+            value = given[name]
+            whole = isinstance(value, Integral) and least <= int(value) < 2**64
+            if not whole and (value is not None or name == "seed"):
+                raise UsageError(f"{name} {value!r} must be a whole number, {least} or more")
+        scale = given["guidance_scale"]
+        if scale is not None and not (isinstance(scale, Real) and 0 <= float(scale) < math.inf):
+            raise UsageError(f"guidance-scale {scale!r} must be a number, 0 or more")
 
 
 # ---------------------------------------------------------------- conditions, guidance

@@ -39,6 +39,9 @@ class Motion:
     fps: float = 30.0
     text: str = ""
 
+    def __repr__(self) -> str:
+        return f"Motion({self.num_frames} frames, {self.seconds:.2f} s, {self.text!r})"
+
     @property
     def num_frames(self) -> int:
         return len(self.quaternions)

@@ -7,7 +7,7 @@ bent as far as it misses, and the body is made once more to go that way.
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
@@ -69,7 +69,7 @@ class Given:
 # ---------------------------------------------------------------- what is kept
 
 
-def chosen_joints(names: Sequence[str]) -> set[str]:
+def chosen_joints(names: Collection[str]) -> set[str]:
     """Joints by their names and those of groups.
 
     Raises:
@@ -128,16 +128,20 @@ def redo(clip: Motion, start: int, stop: int, joints: set[str] | None = None) ->
 
 
 def edit_clip(
-    clip: Motion, begin: float = 0.0, until: float | None = None, joints: set[str] | None = None
+    clip: Motion,
+    begin: float = 0.0,
+    until: float | None = None,
+    joints: Collection[str] | None = None,
 ) -> Given:
     """A clip of which the seconds from `begin` to `until` are made anew; see `redo`.
 
     Args:
         clip: T frames.
         begin, until: seconds; None = its end.
-        joints: only these; None = the whole body and its path.
+        joints: only these, or groups of them as "right-arm"; None = the whole body and its path.
 
     Raises:
+        UsageError: a joint is unknown.
         UserError: the span is not in the clip.
     """
     until = clip.seconds if until is None else until
@@ -147,7 +151,7 @@ def edit_clip(
             f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
             " it"
         )
-    return redo(clip, start, stop, joints)
+    return redo(clip, start, stop, None if joints is None else chosen_joints(joints))
 
 
 def continue_clips(

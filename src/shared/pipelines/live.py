@@ -123,6 +123,12 @@ class LiveBody:
         self._stream.say(text)
         self._said[text] = time.perf_counter()
 
+    def wait(self, seconds: float) -> None:
+        """Until so many seconds of motion have been given out from now on, or it has ended."""
+        enough = self.figures.frames + round(seconds * self.fps)
+        while self.figures.frames < enough and not self._ended.wait(0.01):
+            pass
+
     def stop(self, seconds: float = 0.0) -> None:
         """No more frames, but for so many seconds of them."""
         self._limit = self.figures.frames + round(seconds * self.fps)

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ import numpy as np
 
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
+from ..errors import UsageError
 from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
@@ -39,6 +41,7 @@ if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from .dance import DancePrompter, Dances
     from .song import SongCondition, SongGenerator, SongMotions
 
+SHORTEST, LONGEST = 0.2, 3600.0  # seconds of a clause
 Stage = Callable[[str], AbstractContextManager[Progress]]
 
 
@@ -177,7 +180,7 @@ class MotionGenerator:
         prompts: str | Sequence[str],
         *,
         seconds: float | Sequence[float] = 4.0,
-        tags: Sequence[str | None] | None = None,
+        tags: str | Sequence[str | None] | None = None,
         num_samples: int = 1,
         return_all: bool = False,
         sampling: Sampling = DEFAULT_SAMPLING,
@@ -189,7 +192,7 @@ class MotionGenerator:
         Args:
             prompts: sentences; what they say of order, number, angle and length is done.
             seconds: of each clause that names no length of its own; one for all or one a prompt.
-            tags: action labels beside the prompts.
+            tags: action labels beside the prompts; one for all or one a prompt.
             num_samples: candidates N a prompt.
             return_all: the other candidates, too.
             sampling: seed, steps, sampler and guidance.
@@ -197,13 +200,17 @@ class MotionGenerator:
             progress: told the motions that are done.
 
         Raises:
-            UserError: the model is untrained, or an argument cannot be worked with.
+            UsageError: an argument cannot be worked with.
+            UserError: the model is untrained.
         """
+        texts = _texts(prompts)
+        if not isinstance(sampling, Sampling):
+            raise UsageError(f"sampling is {sampling!r}; give Sampling(seed=…, steps=…)")
         found = self.candidates(
-            [prompts] if isinstance(prompts, str) else prompts,
+            texts,
             num_samples,
-            seconds=seconds,
-            tags=tags,
+            seconds=_lengths(seconds, len(texts)),
+            tags=[tags] * len(texts) if isinstance(tags, str) else tags,
             return_all=return_all,
             sampling=sampling,
             foot_lock=foot_lock,
@@ -364,14 +371,19 @@ class MotionGenerator:
 
         Args:
             given: of clips; see `edit.edit_clip` and `edit.continue_clips`.
-            prompt: what the rest shows; None = nothing is said.
+            prompt: what the rest shows, warned of where it does not, as far as kinematics tell;
+                None = nothing is said.
             tag, sampling, foot_lock: see `generate`.
         """
-        return edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock)
+        made = edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock)
+        free = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
+        if prompt is not None and len(free):
+            self.sentences.warn_unless_shown(prompt, made.motion.frames(free[0], free[-1] + 1))
+        return made
 
     def timeline(
         self,
-        timeline: Timeline,
+        timeline: Timeline | Sequence[str],
         *,
         path: DrawnPath | None = None,
         seconds: float | None = None,
@@ -382,12 +394,14 @@ class MotionGenerator:
         """One motion with one or several texts, on a path or in a loop.
 
         Args:
-            timeline: see `timeline.read_timeline` and `Timeline.of`.
+            timeline: see `timeline.read_timeline` and `Timeline.of`; or texts, one after another.
             path: where it goes; see `path.read_path`.
             seconds: how long a path without times takes; None = as its text is wont to go.
             loop: the last frame leads into the first one.
             sampling, foot_lock: see `generate`.
         """
+        if not isinstance(timeline, Timeline):
+            timeline = Timeline.of(_texts(timeline))
         if path is not None:
             return along_path(
                 self.text, timeline, path, sampling, seconds=seconds, foot_lock=foot_lock
@@ -399,6 +413,27 @@ class MotionGenerator:
     def stream(self, prompts: str | Iterable[str | Passage], **options: Any) -> MotionStream:
         """Motion without end while prompts change; see `MotionStream`."""
         return MotionStream(self.text, prompts, **options)
+
+
+def _texts(prompts: str | Sequence[str]) -> list[str]:
+    if isinstance(prompts, str):
+        return [prompts]
+    if not isinstance(prompts, Iterable) or not all(isinstance(each, str) for each in prompts):
+        raise UsageError(f"prompts is {prompts!r}; give a sentence, or a list of sentences")
+    return list(prompts)
+
+
+def _lengths(seconds: float | Sequence[float], number: int) -> list[float]:
+    """Of so many prompts, each a number of seconds that one can wait for."""
+    found: list[Any] = [*seconds] if isinstance(seconds, Sequence) else [seconds] * number
+    if len(found) != number:
+        raise UsageError(f"{len(found)} lengths for {number} prompts; give one for all or one each")
+    for each in found:
+        if not (isinstance(each, Real) and SHORTEST <= float(each) <= LONGEST):
+            raise UsageError(
+                f"seconds {each!r} is out of range; choose from {SHORTEST} to {LONGEST:g}"
+            )
+    return [float(each) for each in found]
 
 
 def load(

@@ -38,6 +38,7 @@ COLUMNS = ("x", "z", "t", "heading")
 SHORTEST, LONGEST = 0.01, 1000.0  # metres of a path
 FASTEST = 4.0  # m/s
 MAX_POINTS = 100_000
+TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 
 
 @dataclass(frozen=True, eq=False)
@@ -508,3 +509,33 @@ def natural_sway(features: Tensor, fps: float) -> np.ndarray:
     rate = features[:, ROOT_ROW, YAW_RATE].numpy()
     sway = rate - smoothed(rate, SWAY_SMOOTHING * fps)
     return np.asarray(sway - sway.mean())
+
+
+# ---------------------------------------------------------------- a heading alone
+
+
+def turned(
+    degrees: float, fps: float, seconds: float | None = None, rest: float = TURN_REST
+) -> Constraint:
+    """A heading that turns by so many degrees, positive to the left, in so many seconds or at
+    TURN_SPEED, of which `rest` seconds before and after do not turn, or half of all."""
+    if seconds is None:
+        seconds = max(abs(degrees) / TURN_SPEED, 1.0) + 2 * rest
+    rest = round(min(rest, seconds / 4) * fps)
+    moving = max(round(seconds * fps) - 2 * rest, 1)
+    way = np.linspace(0, 1, moving + 1)
+    heading = np.radians(degrees) * (3 * way**2 - 2 * way**3)  # [moving + 1]
+    given = Constraint.free(moving + 2 * rest)
+    rate = torch.zeros(len(given))
+    rate[rest : rest + moving] = torch.as_tensor(np.diff(heading) * fps, dtype=torch.float32)
+    given.values[:, ROOT_ROW, YAW_RATE] = rate
+    given.known[:, ROOT_ROW, YAW_RATE] = True
+    return given
+
+
+def circled(degrees: float, fps: float, seconds: float) -> Constraint:
+    """A heading that turns by so many degrees, as fast at any moment: a way that closes."""
+    given = Constraint.free(round(seconds * fps))
+    given.values[:, ROOT_ROW, YAW_RATE] = math.radians(degrees) / seconds
+    given.known[:, ROOT_ROW, YAW_RATE] = True
+    return given

@@ -62,6 +62,7 @@ class SongSampling(Sampling):
     overlap: int = 30
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if self.num_samples < 1:
             raise UsageError(f"num-samples {self.num_samples} must be 1 or more")
         half = math.inf if self.window is None else self.window // 2

@@ -48,13 +48,20 @@ from ..motion.motion import Motion
 from ..motion.postprocess.whole import rest_to_rest
 from ..tensors import Tensor, torch
 from .edit import all_but, chosen_joints, fill_free
-from .path import DrawnPath, natural_gait, natural_sway, time_path
+from .path import (
+    TURN_REST,
+    DrawnPath,
+    circled,
+    natural_gait,
+    natural_sway,
+    time_path,
+    turned,
+)
 from .ranking import ScoreTable, TextJudge, unranked
 from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts
 
-TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 GOING = frozenset({"walk", "run", "crouch-walk"})
 STEPPING = GOING | {"side-step"}
@@ -198,11 +205,26 @@ class SentenceGenerator:
             " how joints move; look at the motion, and try another seed or other words"
         )
 
+    def warn_unless_shown(self, prompt: str, motion: Motion) -> None:
+        """Say it if what was made of a clip does not show the action of its prompt."""
+        (first, *others) = self.clauses(prompt)
+        scope = self.generator.scope
+        if others or scope is None or self._nearest(first.text) not in scope.checked:
+            return
+        if not self._does(first.text, motion):
+            log.warning(
+                "prompt %r: what was made anew does not show %r, by how joints move; look at it,"
+                " and try a longer span, another seed, or a clip that stands there",
+                prompt, self._nearest(first.text),
+            )  # fmt: skip
+
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts = self.clauses(prompt)
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
-        if len(parts) == 1 and parts[0].plain:
-            texts = [tidied(prompt)]
+        if len(texts) == 1:  # known without its measures, or with them
+            lines = self.generator.scope_warnings([tidied(prompt)], again=again)
+            if parts[0].plain or lines == [None]:
+                return lines
         return self.generator.scope_warnings(texts, again=again)
 
     # ------------------------------------------------------------ one sentence
@@ -508,33 +530,6 @@ class SentenceGenerator:
     def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
         free = torch.cat(list(stream_features(self.generator, [passage], sampling)))
         return natural_sway(free, self.card.fps)
-
-
-def turned(
-    degrees: float, fps: float, seconds: float | None = None, rest: float = TURN_REST
-) -> Constraint:
-    """A heading that turns by so many degrees, positive to the left, in so many seconds or at
-    TURN_SPEED, of which `rest` seconds before and after do not turn, or half of all."""
-    if seconds is None:
-        seconds = max(abs(degrees) / TURN_SPEED, 1.0) + 2 * rest
-    rest = round(min(rest, seconds / 4) * fps)
-    moving = max(round(seconds * fps) - 2 * rest, 1)
-    way = np.linspace(0, 1, moving + 1)
-    heading = np.radians(degrees) * (3 * way**2 - 2 * way**3)  # [moving + 1]
-    given = Constraint.free(moving + 2 * rest)
-    rate = torch.zeros(len(given))
-    rate[rest : rest + moving] = torch.as_tensor(np.diff(heading) * fps, dtype=torch.float32)
-    given.values[:, ROOT_ROW, YAW_RATE] = rate
-    given.known[:, ROOT_ROW, YAW_RATE] = True
-    return given
-
-
-def circled(degrees: float, fps: float, seconds: float) -> Constraint:
-    """A heading that turns by so many degrees, as fast at any moment: a way that closes."""
-    given = Constraint.free(round(seconds * fps))
-    given.values[:, ROOT_ROW, YAW_RATE] = math.radians(degrees) / seconds
-    given.known[:, ROOT_ROW, YAW_RATE] = True
-    return given
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,8 +31,11 @@ export class Director {
   /** Lines about sentences that the model hardly knows; null where all is well. */
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
-    let texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    if (parts.length === 1 && isPlain(parts[0])) texts = [this.reader.tidied(prompt)];
+    const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
+    if (texts.length === 1) { // known without its measures, or with them
+      const line = this.scope.warning(this.reader.tidied(prompt));
+      if (isPlain(parts[0]) || line === null) return line;
+    }
     return texts.map((text) => this.scope.warning(text)).find(Boolean) ?? null;
   }
 

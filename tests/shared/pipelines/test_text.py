@@ -20,9 +20,10 @@ from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import TextJudge
 from src.shared.pipelines.stream import Passage
-from src.shared.pipelines.text import INSISTING, PromptSampler, SentenceGenerator, turned
+from src.shared.pipelines.text import INSISTING, PromptSampler, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline
 from tests.shared.model.conftest import tiny_generator
 
