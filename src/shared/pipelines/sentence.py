@@ -93,11 +93,13 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     text, found = _plain(tidied(sentence)), list[Clause]()
     for whole in _ordered(text, read):
         pieces = _joined(whole, read)
+        last = found[-1] if found else None
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], read) if others else None
             clause = pair or _parted(first, read) or _measured(first)
-            found.append(_as_before(found[-1], clause) if found else clause)
+            found.append(_as_before(last, clause) if last else clause)
+            last = None
             pieces = others[1:] if pair else others
     return [clause for clause in found if clause.text] or [Clause(sentence)]
 

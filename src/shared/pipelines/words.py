@@ -63,7 +63,10 @@ class Words:
             sides |= table.get("other", {})
         self.numbers = {bare(word): value for word, value in numbers.items()}
         self.adverbs = {bare(word): value for word, value in adverbs.items()}
-        self.angles = {bare(word.rstrip("$")): float(value) for word, value in angles.items()}
+        self.angles = {
+            bare(word.rpartition("|")[2].rstrip("$")): float(value)
+            for word, value in angles.items()
+        }
         joints = all_of("and")
         self.comma = re.compile(rf"\s*{_COMMAS}\s*")
         self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
@@ -122,8 +125,9 @@ class Words:
         half = rf"(?P<half>\s*{_any(all_of('half'))})?{_trail()}"
 
         def measure(name: str) -> str:
-            words = [*numbers, *fractions, *([] if name == "seconds" else articles)]
-            amount = rf"{_lead()}{ready}(?P<number>{_DIGITS}|{_any(words)})"
+            words = {*numbers, *fractions, *([] if name == "seconds" else articles)}
+            words -= set(all_of("vague")) if name == "steps" else set()
+            amount = rf"{_lead()}{ready}(?P<number>{_DIGITS}|{_any(sorted(words))})"
             if name == "steps":
                 return rf"{amount}\s*(?P<manner>{_LETTER}+\s+)?(?P<noun>{_any(steps)})"
             return rf"{amount}[\s-]*{_any(all_of(name))}{half}"

@@ -60,14 +60,17 @@ export class SentenceReader {
 
   clauses(sentence) {
     const text = plain(this.tidied(sentence)), found = [];
-    for (const whole of this.ordered(text))
+    for (const whole of this.ordered(text)) {
+      let last = found.at(-1);
       for (let pieces = this.joined(whole); pieces.length;) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0]) : null;
         const clause = pair ?? this.parted(first) ?? this.measured(first);
-        found.push(found.length ? this.asBefore(found.at(-1), clause) : clause);
+        found.push(last ? this.asBefore(last, clause) : clause);
+        last = null;
         pieces = pair ? others.slice(1) : others;
       }
+    }
     const real = found.filter((clause) => clause.text);
     return real.length ? real : [plainClause(sentence)];
   }
