@@ -18,13 +18,6 @@ from .stats import FEW, MIN_PAIRS, Difference, paired_bootstrap
 from .tables import Cell, Column, Grid, GridRow, grids, report_data
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
-NOTE = (
-    "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
-    " mean of its replications, where a figure belongs to a single motion; over replications with"
-    " the same seeds where it belongs to a whole sample. p is two-sided. better: the interval"
-    f" excludes 0 on the good side; fewer than {FEW} pairs get no verdict. Every column is one"
-    " test: of twenty that differ in nothing, one seems to."
-)
 
 
 @dataclass(frozen=True)
@@ -105,11 +98,8 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
             "pairs": found.count,
         }
         rows[column.heading] = GridRow(cells)
-    columns = (
-        Column("a", "a"), Column("b", "b"), Column("difference", "b - a", 4), Column("p", "p", 4),
-        Column("better", "better"), Column("pairs", "pairs", 0),
-    )  # fmt: skip
-    return Grid(grid.name, grid.title, columns, rows, NOTE, "figure") if rows else None
+    words = {"name": grid.name, "title": grid.title}
+    return Grid.of("comparison", rows, {"FEW": FEW}, **words) if rows else None
 
 
 def _pairs(a: Sequence[Part], b: Sequence[Part], key: str) -> tuple[np.ndarray, np.ndarray] | None:

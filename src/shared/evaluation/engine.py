@@ -20,7 +20,7 @@ from ..errors import UserError
 from . import manifest
 from .manifest import Part, Parts, Sources
 from .stats import Estimate, bootstrap_mean, replicated, share_of
-from .tables import Column, Grid, GridRow, Report, plain, report_data
+from .tables import Column, Grid, GridRow, Report, described, plain, report_data
 
 Progress = Callable[[str], None]
 Value = float | np.ndarray
@@ -39,14 +39,15 @@ class AnySample(Protocol):
 
 Sample = TypeVar("Sample", bound=AnySample)
 Judged = TypeVar("Judged", bound=AnySample)
+Figures = Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
 
 
 @dataclass(frozen=True)
 class MetricFamily(Generic[Judged]):
     """The plug-in point: figures that belong together and share a definition.
 
-    To add one: name it among the families of a suite. Tables, intervals, comparison, the reports
-    and their legend follow by themselves.
+    To add one: describe it in tables.toml and name it among the families of a suite. Tables,
+    intervals, comparison, the reports and their legend follow by themselves.
 
     Attributes:
         name: of the family's table.
@@ -69,9 +70,15 @@ class MetricFamily(Generic[Judged]):
     name: str
     columns: tuple[Column, ...]
     definition: str
-    figures: Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
+    figures: Figures[Judged]
     distance: bool = False
     least: int = 0
+
+    @classmethod
+    def of(cls, name: str, figures: Figures[Judged], *, warning: str = "", **rest: Any) -> Self:
+        """The family whose columns and definition tables.toml holds; `warning` ends the latter."""
+        words = described(name, warning=warning)
+        return cls(name, words["columns"], words["note"], figures, **rest)
 
     def compute(self, sample: Judged, reference: Judged, *, seed: int) -> Mapping[str, Value]:
         """What `figures` finds, by column key."""

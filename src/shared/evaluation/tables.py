@@ -6,8 +6,10 @@ the metrics behind it.
 
 import math
 import re
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from .stats import Estimate
@@ -15,6 +17,7 @@ from .stats import Estimate
 if TYPE_CHECKING:
     from rich.console import Console
 
+WORDS = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))
 FORMAT_VERSION = 1
 Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
 Cell = Estimate | Mapping[str, Any] | float | str | None  # a mapping: an `Estimate` of report.json
@@ -32,6 +35,13 @@ class Column:
     better: Better = "real"
     # yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N
     share: bool = False
+
+
+def described(kind: str, **values: object) -> dict[str, Any]:
+    """Columns, title, head and note of a kind of table in tables.toml, `values` in their braces."""
+    texts = {key: text for key, text in WORDS[kind].items() if isinstance(text, str)}
+    words = {key: " ".join(text.split()).format(**values) for key, text in texts.items()}
+    return {"columns": tuple(Column(*each) for each in WORDS[kind].get("columns", ())), **words}
 
 
 @dataclass(frozen=True)
@@ -57,6 +67,17 @@ class Grid:
     note: str = ""  # under the table, Markdown
     head: str = "row"  # over the names of the rows
     plot: bool = False  # whether the columns are drawn in the HTML report
+
+    @classmethod
+    def of(
+        cls,
+        kind: str,
+        rows: Mapping[str, GridRow],
+        values: Mapping[str, object] | None = None,
+        **fields: Any,
+    ) -> "Grid":
+        """Rows under what tables.toml says of their kind; `fields` take its place."""
+        return cls(rows=rows, **{"name": kind, **described(kind, **(values or {})), **fields})
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json; rows keep their order."""

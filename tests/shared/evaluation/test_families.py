@@ -2,8 +2,7 @@
 
 import pytest
 
-from src.shared.evaluation.families import AUDIO_FAMILIES, TEXT_FAMILIES
-from src.shared.evaluation.families_dance import DANCE_FAMILIES
+from src.shared.evaluation.families import AUDIO_FAMILIES, DANCE_FAMILIES, TEXT_FAMILIES
 
 
 @pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES, DANCE_FAMILIES])

@@ -24,21 +24,11 @@ from ...motion.trajectory import FPS, MotionTrajectory
 from ..plots import new_figure, save_figure
 from ..samples import DanceSample, Moved
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
-from ..tables import Column, Grid, GridRow
+from ..tables import Grid, GridRow
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
-ALIGNMENT = (
-    Column("motion_to_music", "motion→music"), Column("music_to_motion", "music→motion"),
-    Column("f", "F"), Column("hits", "hits F"), Column("distance", "distance s"),
-)  # fmt: skip
-NOTES = {
-    "rows": "The first replication. chance: the motion turned round by random times; another"
-    " song: 8 others. ± is 95% over songs.",
-    "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
-    " overlap.",
-}
 
 
 def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[Grid]:
@@ -50,13 +40,10 @@ def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[
             f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
             f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"
         )
-        for key, title, columns in (
-            ("rows", f"{name} motion on music ({size})", ALIGNMENT),
-            ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
-        ):
+        for kind, key in (("alignment", "rows"), ("alignment above", "above")):
             rows = {row: GridRow(cells, part["songs"], 1) for row, cells in part[key].items()}
-            grid_name = f"alignment/{name}/{key}"
-            grids.append(Grid(grid_name, title, columns, rows, NOTES[key], "motion against"))
+            words = {"name": name, "size": size}
+            grids.append(Grid.of(kind, rows, words, name=f"alignment/{name}/{key}"))
     return grids
 
 

@@ -35,7 +35,7 @@ from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
-from ..tables import Column, Grid, GridRow
+from ..tables import Grid, GridRow
 from .alignment import (
     alignment_grids,
     danced,
@@ -225,33 +225,7 @@ def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> Trajectories:
 # ---------------------------------------------------------------- tables with rows of their own
 
 
-PHASE = (
-    Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),
-    Column("bar", "bar |error|"), Column("beat_offset", "beat offset"),
-    Column("steady", "steadiness"),
-)  # fmt: skip
-TRACK = (
-    Column("tempo", "BPM", 1), Column("meter", "meter", 0), Column("confidence", "confidence", 2),
-    Column("phase_from_tracker", "phase off tracker"), Column("motion_to_music", "motion→music"),
-    Column("music_to_motion", "music→motion"), Column("f", "F"), Column("chance", "chance F"),
-    Column("half", "half-beat F"),
-)  # fmt: skip
 UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/s²"}
-NOTES = {
-    "phase": "Cycles; guessing scores 0.25. The first replication. generated: where the tracker"
-    " finds beats its phase is taken over, so the rows agree; right tempo: songs whose tempo the"
-    " tracker found within 4%; own count: the same network, not held; chance: the tracker's phase"
-    " moved by a random offset a song. No real row: of real phrases nobody knows more than the"
-    " tracker. ± is 95% over songs.",
-    "seams": "The first replication. Ratio of quantiles at seams and elsewhere, [95% bootstrap"
-    " over songs]; (null: the same marks at random places). KS: largest distance of the"
-    " distributions, p from the null. The null is chance; real motion is not made of windows, so"
-    " it has no seams, and what it would score is 1.",
-    "jumps": "The extremes elsewhere in the same songs stand for real and chance.",
-    "tracks": "Descriptive: nobody knows these songs' beats, the tracker's stand in, and nobody"
-    " danced to them, so there is no real row. chance: the motion turned round by random times."
-    " Untrained: see the held-out songs.",
-}
 
 
 # ---------------------------------------------------------------- phase
@@ -277,7 +251,7 @@ def phase_table(context: AudioContext) -> list[Grid]:
     rows = {
         name: GridRow(phase_row(group), len(group), 1) for name, group in groups.items() if group
     }
-    return [Grid("phase", "bar and beat phase, held-out songs", PHASE, rows, NOTES["phase"])]
+    return [Grid.of("phase of a song", rows, name="phase")]
 
 
 def _counted(
@@ -331,8 +305,7 @@ def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
 
 
 def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
-    names = [f"{name}/{row}".rstrip("/") for name in ("seams", "jumps")]
-    of = f", {row}" if row else ""
+    end, of = (f"/{row}", f", {row}") if row else ("", "")
     rows = {}
     for name, found in seams["quantities"].items():
         cells = {
@@ -343,20 +316,14 @@ def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
         cells["medians"] = f"{found['seam_p50']:.3g} / {found['elsewhere_p50']:.3g}"
         cells["ks"] = f"{found['ks']['value']:.3f} (p {found['ks']['p']:.2f})"
         rows[f"{name.replace('_', ' ')}, {UNITS[name]}"] = GridRow(cells)
-    columns = (
-        Column("medians", "median at / elsewhere"), Column("p50", "ratio of medians"),
-        Column("p95", "ratio of p95"), Column("ks", "KS"),
-    )  # fmt: skip
-    size = f"{seams['seams']} seams of {seams['songs']} songs, {seams['frames']} frames"
-    yield Grid(names[0], f"seams{of} ({size})", columns, rows, NOTES["seams"], "quantity")
+    yield Grid.of("seams", rows, {**seams, "of": of}, name=f"seams{end}")
     jumps = seams["jumps"]
+    found = "none" if jumps.pop("none") else "FOUND"
     rows = {
         key.replace("_", " "): GridRow({"at": f"{at:.4g}", "elsewhere": f"{other:.4g}"})
-        for key, (at, other) in ((k, v) for k, v in jumps.items() if k != "none")
+        for key, (at, other) in jumps.items()
     }
-    title = f"jumps at seams{of}: {'none' if jumps['none'] else 'FOUND'}"
-    places = (Column("at", "at seams"), Column("elsewhere", "elsewhere"))
-    yield Grid(names[1], title, places, rows, NOTES["jumps"], "extreme")
+    yield Grid.of("jumps", rows, {"of": of, "found": found}, name=f"jumps{end}")
 
 
 # ---------------------------------------------------------------- sound files
@@ -368,7 +335,7 @@ def track_table(context: AudioContext) -> list[Grid]:
         piece.name[:40]: GridRow(_track(piece, motion, context.settings.seed))
         for piece, motion in context.played
     }
-    return [Grid("tracks", "real tracks", TRACK, rows, NOTES["tracks"], "track")] if rows else []
+    return [Grid.of("tracks", rows)] if rows else []
 
 
 def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, float]:

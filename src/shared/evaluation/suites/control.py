@@ -25,12 +25,6 @@ Once = Callable[[str, Callable[[], Part]], Part]
 WORDINGS = {"templates": "tmpl", "paraphrases": "para"}  # with their headings
 NUM_FRAMES = 120  # of each motion
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
-NOTE = (
-    "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
-    " no training caption repeats (para). real: test clips with these labels; chance: motions made"
-    " for the other tasks; still: the first pose held; untrained: the same network with fresh"
-    " weights, asked the first language's templates. ± is Wilson's 95%."
-)
 
 
 @dataclass
@@ -178,9 +172,8 @@ def control_grid(
     keys = [column.key for column in columns]
     rows = {name: GridRow({key: own.get(key) for key in keys}) for name, own in rates.items()}
     means = {key: _pooled(own[key] for own in rates.values() if key in own) for key in keys}
-    title = f"controllability ({num_seeds} motions a cell)"
     rows["mean"] = GridRow(means)
-    return Grid("controllability", title, tuple(columns), rows, NOTE, "task")
+    return Grid.of("controllability", rows, {"num": num_seeds}, columns=tuple(columns))
 
 
 def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:

@@ -39,11 +39,11 @@ from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..evaluator import Evaluator
-from ..families_dance import DANCE_FAMILIES, MOMENTS
+from ..families import DANCE_FAMILIES, MOMENTS
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..samples import Bodies, Dance, DanceSample, held_still, untrained
 from ..stats import bootstrap_mean
-from ..tables import Column, Grid, GridRow
+from ..tables import Grid, GridRow
 from .alignment import alignment_grids, danced
 from .editing import EditContext, kept_table, path_table, transition_table
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
@@ -269,17 +269,6 @@ def alignment_tables(context: DanceContext) -> list[Grid]:
 # seen: a dance of which every window is another dancer's (a hard cut).
 
 SEAM_TOP = 99  # percentile of real motion that nothing at a seam is to pass
-SEAM_COLUMNS = (
-    Column("seam", "p99 at seams", 0), Column("elsewhere", "p99 elsewhere", 0),
-    Column("real", "real p99", 0), Column("beyond_seam", "beyond it at seams %", 2),
-    Column("beyond_elsewhere", "beyond it elsewhere %", 2), Column("ratio", "ratio of medians"),
-)  # fmt: skip
-SEAM_NOTE = (
-    "Of each frame the joint that is worst, over all 22. *real p99*: of the frames of the real"
-    " dances, or of captioned clips without them; real motion is beyond it in 1%. *ratio of"
-    " medians*: at seams over elsewhere, [95% bootstrap over songs] (null: the same marks at random"
-    " places). *hard cut*: from each seam on the pose of another dance."
-)
 
 
 def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
@@ -331,8 +320,7 @@ def seam_grid(
     if not found:
         return []
     number = sum(len(starts(seams)) for _, seams in marked)
-    title = f"seams of the body's windows ({number} seams of {len(marked)} dances)"
-    return [Grid("body-seams", title, SEAM_COLUMNS, found, SEAM_NOTE, "quantity")]
+    return [Grid.of("body-seams", found, {"seams": number, "dances": len(marked)})]
 
 
 def _stacked(motions: Sequence[Motion]) -> dict[str, list[np.ndarray]]:
@@ -379,20 +367,6 @@ ASKED = (
     "a person claps",
 )  # fmt: skip
 NOISES = 2  # dances of each prompt
-PROMPT_COLUMNS = (
-    Column("apart", "other prompt", better="high"), Column("same", "other noise"),
-    Column("gain", "difference", better="high"), Column("r_at_1", "R@1", better="high"),
-    Column("r_at_3", "R@3", better="high"), Column("f", "beat F", better="high"),
-    Column("limbs_f", "limbs F", better="high"),
-)  # fmt: skip
-PROMPT_NOTE = (
-    "Song by song only words and noise change. *other prompt*: mean"
-    " distance of the judge's embeddings of dances of two prompts with one noise; *other noise*: of"
-    " one prompt with two noises; *difference*: song by song. *R@k*: the dance's prompt is among"
-    " the k nearest of the prompts used; chance is k over their number. *words alone*: the same"
-    " prompts without a song, which is how far the words go; its beat F is chance. Intervals over"
-    " songs."
-)
 Dancer = Callable[[int, str, int], Motion]  # song, prompt and noise to a dance
 
 
@@ -407,9 +381,8 @@ def prompt_effect(context: DanceContext) -> list[Grid]:
         context.progress(f"prompts: {name}")
         embeddings, f, limbs_f = dance_all(context, dancer, songs)
         rows[name] = GridRow(effect(embeddings, f, limbs_f, text), f.size, 1)
-    title = f"what the prompt changes ({len(songs)} songs, {len(ASKED)} prompts, {NOISES} noises)"
-    prompts = "; ".join(ASKED)
-    return [Grid("prompts", title, PROMPT_COLUMNS, rows, f"{PROMPT_NOTE} Prompts: {prompts}.")]
+    words = {"prompts": "; ".join(ASKED), "num": len(ASKED), "noises": NOISES}
+    return [Grid.of("prompts", rows, words | {"songs": len(songs)})]
 
 
 def dancers(context: DanceContext) -> dict[str, Dancer]:

@@ -26,7 +26,7 @@ from ..engine import Progress
 from ..evaluator import Evaluator
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
-from ..tables import Cell, Column, Grid, GridRow
+from ..tables import Cell, Grid, GridRow
 
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
 RADIUS = 1.5  # metres of the curved paths
@@ -39,39 +39,6 @@ ACTIONS = (
     "a person walks backward", "a person squats", "a person runs", "a person bows",
     "a person claps",
 )  # fmt: skip
-KEPT = (
-    Column("rotation", "kept rotations, max", 6, "low"),
-    Column("root", "kept root, max", 6, "low"),
-    Column("position", "kept joints, max mm", 3, "low"),
-    Column("changed", "changed cm"),
-    Column("border", "p99 at borders m/s²", 0), Column("real", "real p99", 0),
-    Column("beyond", "beyond it %", 2, "low"),
-)  # fmt: skip
-PATH = (
-    Column("mean", "from the path, mean cm", 2, "low"), Column("max", "max cm", 2, "low"),
-    Column("line", "from the line, mean cm", 2, "low"), Column("limb_speed", "limb speed m/s", 2),
-    Column("support", "slide, support cm/s", 1, "low"), Column("rough", "jerk / speed 1/s²", 0),
-)  # fmt: skip
-TRANSITION = (
-    Column("near", "p99 at the change m/s²", 0), Column("elsewhere", "p99 elsewhere", 0),
-    Column("real", "real p99", 0), Column("beyond", "beyond it at the change %", 2, "low"),
-    Column("before", "R@1 before", better="high"), Column("after", "R@1 after", better="high"),
-)  # fmt: skip
-NOTES = {
-    "kept": "Real clips with a part made anew. *kept*: the largest difference over all clips of"
-    " what was to stay (6D entries; m/s, rad/s and m; mm seen from the pelvis in frames kept"
-    " whole). *changed*: mean distance of a joint from the clip in edited frames; who hands the"
-    " clip back has 0. *borders*: the largest acceleration of a joint within 6 frames of what is"
-    " kept; *real p99* of whole real clips. *another clip's poses*: cut in.",
-    "path": "Where the pelvis is to be in each frame, and the nearest point of the line as drawn."
-    " The path is pinned, so whatever is carried keeps to it, an untrained body too: *limb speed*,"
-    " *slide* and *jerk / speed* tell them apart. *words alone*: the prompt without the path, from"
-    " its beginning.",
-    "transitions": f"Two actions of {HALF} frames, one text after the other. *at the change*: the"
-    f" largest acceleration of a joint within {AROUND} frames of it. *R@1*: the separate evaluator"
-    f" finds the action asked for among {len(ACTIONS)}, in the frames of each. *hard cut*: the same"
-    " two actions made apart and put one after the other.",
-}
 REDONE = {"left arm": ("left-arm",), "upper body": ("upper-body",), "a second": None}
 
 
@@ -174,8 +141,7 @@ def kept_table(context: EditContext) -> list[Grid]:
     others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
     rows["a second: clip handed back"] = _kept_row(context, back)
     rows["a second: another clip's poses"] = _kept_row(context, others)
-    title = f"edits of {len(tasks)} real clips"
-    return [Grid("edits", title, KEPT, rows, NOTES["kept"], "edit")]
+    return [Grid.of("edits", rows, {"clips": len(tasks)})]
 
 
 def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
@@ -271,8 +237,7 @@ def path_table(context: EditContext) -> list[Grid]:
             free.append((alone, points, drawn))
         rows[f"{shape}: frozen pose"] = _path_row(still)
         rows[f"{shape}: words alone"] = _path_row(free)
-    title = f"drawn paths ({number} motions each)"
-    return [Grid("paths", title, PATH, rows, NOTES["path"], "path")]
+    return [Grid.of("paths", rows, {"num": number})]
 
 
 def drawn_paths() -> dict[str, DrawnPath]:
@@ -336,8 +301,8 @@ def transition_table(context: EditContext, judge: Evaluator) -> list[Grid]:
     ]
     made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
     rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
-    title = f"transitions ({len(pairs)} pairs of actions)"
-    return [Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])]
+    words = {"pairs": len(pairs), "HALF": HALF, "AROUND": AROUND, "actions": len(ACTIONS)}
+    return [Grid.of("transitions", rows, words)]
 
 
 def hard_cut(first: Motion, second: Motion) -> Motion:

@@ -326,13 +326,6 @@ def dance(
 
 
 CHANCE = "real, of another song"
-NOTE = (
-    "± is half a 95% interval: rows by bootstrap over songs; differences by paired bootstrap over"
-    " songs (10,000 resamples). * the interval excludes 0. random: the answer to a random"
-    " question, with the confidence of the right one. Every cell is one test: of twenty that"
-    " differ in nothing, one seems to. An untrained memory part changes nothing: its row"
-    " is without."
-)
 
 
 @dataclass(frozen=True)
@@ -432,7 +425,7 @@ def rows_table(figures: Figures, measured: Mapping[str, Values]) -> Grid:
         name: GridRow({key: bootstrap_mean(each.tolist()).as_dict() for key, each in found.items()})
         for name, found in measured.items()
     }
-    return Grid(figures.name, figures.name, figures.columns, rows, NOTE, head="memory")
+    return Grid.of("memory", rows, name=figures.name, title=figures.name, columns=figures.columns)
 
 
 def gains_table(figures: Figures, measured: Mapping[str, Values], asked: Sequence[Arm]) -> Grid:

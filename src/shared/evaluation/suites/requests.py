@@ -139,15 +139,7 @@ def _obedience(yardstick: Yardstick, rows: dict[str, Asked]) -> Grid:
     done = yardstick.obeyed([asked.requests[row].labels for row in others], asked.seen)
     found["generated, for another action"] = GridRow({"all": share_of(done)}, len(done))
     columns = tuple(Column(key, key, 2, "high", share=True) for key in ("all", *languages))
-    note = (
-        "Share of motions that do what a hand-written, plain sentence asks: the action by a"
-        " discriminant fitted on captured clips and, where captured clips bear it out, by"
-        " kinematics; side, direction and turn by kinematics. *captured*: held-out clips under"
-        " their own labels; *procedural*: the action alone; *for another action*: each motion held"
-        " against a request for an action that it was not made for, what a judge that says yes too"
-        " easily would give."
-    )
-    return Grid("obeyed", "Plain requests obeyed", columns, found, note)
+    return Grid.of("obeyed", found, columns=columns)
 
 
 def _of_other_actions(actions: Sequence[str], seed: int) -> list[int]:
@@ -176,21 +168,7 @@ def _by_action(yardstick: Yardstick, asked: Asked) -> Grid:
             "instead": max(set(others), key=others.count) if others else "",
         }
         rows[action] = GridRow(cells, int(own.sum()))
-    columns = (
-        Column("obeyed", "obeyed", 2, "high", share=True),
-        Column("real", "captured clips", 2, "high", share=True),
-        Column("source", "the judge knows it from"),
-        Column("recall", "judge: recognised", 2),
-        Column("false", "judge: mistaken", 2),
-        Column("kinematics", "by kinematics too"),
-        Column("instead", "most often shown instead"),
-    )
-    note = (
-        "*recognised*: share of the action's clips in which the judge, fitted on other takes, finds"
-        " it; *mistaken*: share of the clips of other actions in which it does. An action that the"
-        " judge hardly recognises cannot be measured by it, and counts as missed."
-    )
-    return Grid("actions", "Plain requests by action", columns, rows, note, head="action")
+    return Grid.of("actions", rows)
 
 
 def _as_long(yardstick: Yardstick, by: Generator, asked: Sequence[Request]) -> list[Asked]:
@@ -271,29 +249,8 @@ def _realism(
         found[name] = row(each.seen, each.labels, apart)
     matches = yardstick.settings.min_matches
     told = sum(bool(yardstick.references(w)) for w in asked)
-    columns = (
-        Column("learned", "FD, judge's axes", 1, "low"),
-        Column("kinematic", "FID_k", 1, "low"),
-        Column("procedural", "nearer to procedural", 2, "low", share=True),
-        Column("peak", "walks: peak acceleration m/s²", 0),
-        Column("teleports", "runs: frames beyond captured %", 2, "low"),
-        Column("slide", "walks: carrying foot cm/s", 1),
-        Column("turn", "walks that turn: by degrees", 0),
-    )
-    note = (
-        "FD: Fréchet distance in the axes along which the judge tells captured actions apart, in"
-        " deviations within an action; FID_k: of 66 kinetic features. Where"
-        f" {matches} or more held-out clips have the labels asked for (N {told}), a motion is made"
-        f" anew, as long as one of these, {LENGTH_DRAWS} times over, and stands against one of"
-        f" them; mean of {DRAWS} draws."
-        " The first two rows answer the same requests with a clip"
-        " of another take, and with a plain one that was trained on. *nearer to procedural*: the"
-        " nearest clip of the same action is one that nobody recorded. *frames beyond captured*:"
-        " worst joint's acceleration above the 99.9th percentile of captured runs. *walks that"
-        " turn*: obeyed asks for the side alone, which who goes round and round keeps. A frozen"
-        " pose is smooth and does not slide: read the distances first."
-    )
-    return Grid("realism", "Like captured motion", columns, found, note)
+    words = {"matches": matches, "told": told, "lengths": LENGTH_DRAWS, "draws": DRAWS}
+    return Grid.of("realism", found, words)
 
 
 def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], make: Make) -> Grid:
@@ -341,16 +298,7 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
         rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": mean_speed(walk)}, 1)
-    columns = (
-        Column("share", "generated", 2, "high"),
-        Column("real", "captured clips", 2),
-    )
-    note = (
-        "Shares of hand-written sentences of all languages whose number, angle within 20°, length,"
-        " side or order is shown, beside the action itself. A body that never moves is at rest too:"
-        " read the gestures that are obeyed. It does not turn, and its feet do not jump, either."
-    )
-    return Grid("exactness", "What is said exactly", columns, rows, note, head="asked for")
+    return Grid.of("exactness", rows)
 
 
 def _gestures(yardstick: Yardstick, gestures: Sequence[Request], seen: Seen) -> dict[str, GridRow]:
@@ -459,13 +407,7 @@ def _warnings(
         "free prompts, wrong without a word": ~right & ~told,
     }
     rows = {name: GridRow({"share": share_of(each)}, len(each)) for name, each in shares.items()}
-    note = (
-        "Share that is warned of: by the sentence, or by kinematics of the motion, which the judge"
-        " asks, too. Then the free prompts, half of which are outside: every one is right, or wrong"
-        " with or without a warning; of those outside the sentence alone can warn."
-    )
-    title = "Knowing what it does not know"
-    return Grid("warnings", title, (Column("share", "share", 2),), rows, note, head="requests")
+    return Grid.of("warnings", rows)
 
 
 # ---------------------------------------------------------------- figures of motions

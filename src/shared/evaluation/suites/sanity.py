@@ -35,14 +35,6 @@ COLOURS = {
     "generated": "tab:red", "written": "tab:orange", "real": "tab:green", "untrained": "grey",
     "frozen": "tab:blue",
 }  # fmt: skip
-NOTES = {
-    "sanity": "generated: as the sampler of `generate` joins its windows, not post-processed;"
-    " written: post-processed, as the files hold it. seven: TECH's five checks and ruling 18's two;"
-    " suite: with liveliness, roughness and bands. No chance row: no check asks which song a motion"
-    " belongs to.",
-    "inside": "Share of motions between the 5th and 95th percentile of training motions; real"
-    " motion itself reaches about 0.9.",
-}
 
 
 @dataclass(frozen=True)
@@ -219,20 +211,16 @@ def sanity_grids(
         )
         for name, row in rows.items()
     }
-    yield Grid("sanity", "motions that pass", columns, passed, NOTES["sanity"])
+    yield Grid.of("motions that pass", passed, name="sanity", columns=columns)
     if bands is not None:
         known = {k: bands.bands[k] for k in rows["generated"]["inside"]}
         columns = tuple(Column(name, name.replace("_", " "), 2) for name in known)
         limits = {name: f"{band.low:.3g} – {band.high:.3g}" for name, band in known.items()}
         shares = {name: GridRow(row["inside"]) for name, row in rows.items()}
-        title = "motions inside the training motions' band"
-        yield Grid(
-            "inside", title, columns, {"p5 to p95": GridRow(limits)} | shares, NOTES["inside"]
-        )
+        yield Grid.of("inside", {"p5 to p95": GridRow(limits)} | shares, columns=columns)
     said = {what: GridRow({"value": value, "holds": "yes" if holds else "NO"})
             for what, value, holds in _said(found)}  # fmt: skip
-    columns = (Column("value", "value"), Column("holds", "holds"))
-    yield Grid("verdict", "verdict", columns, said, head="what must hold")
+    yield Grid.of("verdict", said)
 
 
 def _said(found: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:

@@ -55,11 +55,6 @@ ROLES: dict[Role, str] = {
     "judge": "the judge's own terms",
 }
 Chosen = np.ndarray  # [P], which candidate of each subject
-NOTE = (
-    "Rows: ± is 95% over replications, other noise for the same subjects (floors: over subjects)."
-    " Difference: paired, ± is 95% by bootstrap over subjects. * better, and the intervals of both"
-    " rows are apart. An untrained judge chooses at random: its row is best of 1."
-)
 
 
 @dataclass(frozen=True)
@@ -207,7 +202,8 @@ def selection_grids(found: Report, figures: Sequence[Figure], subjects: str) -> 
             if f.role == role
         ]
         if columns:
-            yield Grid(role, f"{title} ({subjects})", tuple(columns), rows, NOTE)
+            title = f"{title} ({subjects})"
+            yield Grid.of("selection", rows, name=role, title=title, columns=tuple(columns))
 
 
 # ---------------------------------------------------------------- prompts

@@ -28,7 +28,7 @@ from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
 from ..samples import untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
-from ..tables import Column, Grid, GridRow, report_data
+from ..tables import Grid, GridRow, report_data
 from .songs import song_of
 
 Embed = Callable[[Tensor, Tensor], Tensor]
@@ -351,15 +351,6 @@ def in_common(
 
 TEMPO_WIDTH = 0.05  # of the kernel, in log tempo: 5%
 SPACE, TEMPO, UNTRAINED, CHANCE = "shared space", "tempo alone", "untrained tower", "chance"
-COLUMNS = (
-    *(Column(f"r_at_{k}", f"R@{k}", 3, "high") for k in TOP),
-    Column("median_rank", "median rank", 1, "low"),
-)
-NEAREST = (
-    Column("tempo", "tempo off (octaves)", 3, "low"),
-    Column("speed", "speed off (m/s)", 3, "low"),
-    Column("action", "same action", 3, "high"),
-)
 
 
 @dataclass(frozen=True)
@@ -489,19 +480,11 @@ def _table(
         for name in [*names, CHANCE]
     }
     rows = {name: GridRow(cells, count // runs, runs) for name, cells in found.items()}
-    note = "Of the same song or clip: neither right nor wrong. A real row would be 1 throughout."
-    if by_action:
-        note += " Nor are phrases of the same action: a caption fits them all."
-    return Grid(title, title, COLUMNS, rows, note, head="keys")
+    nor = " Nor are phrases of the same action: a caption fits them all." if by_action else ""
+    return Grid.of("space", rows, {"by_action": nor}, name=title, title=title)
 
 
 def _nearest(windows: Windows, bench: Bench, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
     found = {name: in_common(windows, bench, keys, motion) for name, keys in sounds.items()}
     found[CHANCE] = in_common(windows, bench, sounds[SPACE], motion, shuffled=True)
-    rows = {name: GridRow(cells) for name, cells in found.items()}
-    own = (
-        "The nearest motion of another song and other clips, held against the sound's own motion,"
-        " which would be the real row: 0, 0 and 1."
-    )
-    title = "what the nearest motion has in common"
-    return Grid("nearest", title, NEAREST, rows, own, "keys of sound")
+    return Grid.of("nearest", {name: GridRow(cells) for name, cells in found.items()})

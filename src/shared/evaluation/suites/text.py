@@ -344,13 +344,7 @@ def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
     """What a reader asks first: each row against real and chance."""
     rows = {name: GridRow(scores(grids, name)) for name in names}
     columns = tuple(Column(key, key.replace("_", " ")) for key in rows[names[0]].cells)
-    note = (
-        "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
-        " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
-        " row over real. Real motion is 1 (near 0 in joint and tag ratio); chance is 0 where"
-        " normalised, 1 in the joint ratio. Of the tables above, where the intervals are."
-    )
-    return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
+    return Grid.of("scores", rows, {"split": split}, name=f"{split}/scores", columns=columns)
 
 
 def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
@@ -389,12 +383,8 @@ def languages(context: TextContext) -> list[Grid]:
             rows[language] = GridRow(found["cells"], found["num"], 1)
     made_by = ["generated", *([UNTRAINED] if context.untrained else [])]
     columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
-    note = (
-        "One replication; ± is 95% over prompts. normalised: (generated - chance) / (real -"
-        f" chance). Seed {settings.seed}; real and chance over all real clips."
-    )
-    title = "R@3 by language (seen combinations)"
-    return [Grid("languages", title, columns, rows, note, "language")] if rows else []
+    seed = {"seed": settings.seed}
+    return [Grid.of("languages", rows, seed, columns=columns)] if rows else []
 
 
 def _language(context: TextContext, language: str) -> Part:

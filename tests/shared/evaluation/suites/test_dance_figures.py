@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
+from src.shared.evaluation.families import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.samples import Dance, DanceSample, held_still
 from src.shared.evaluation.suites.dance import effect, hard_cuts, near_seams, seam_grid
 from src.shared.metrics.retrieval import rank_of
