@@ -130,8 +130,7 @@ def diversity(embeddings: np.ndarray, *, seed: int = 0) -> float:
 
     With fewer than 600 rows as many disjoint pairs as there are. Close to real is best.
 
-    Raises:
-        ValueError: fewer than two rows.
+    Raises ValueError: fewer than two rows.
     """
     pairs = min(300, len(embeddings) // 2)
     if pairs < 1:
@@ -148,8 +147,7 @@ def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[floa
     the draw. Mean distance of motions of one prompt, NaN where no prompt comes twice, and how many
     prompts do.
 
-    Raises:
-        ValueError: lengths that differ, NaN or infinity.
+    Raises ValueError: lengths that differ, NaN or infinity.
     """
     if len(embeddings) != len(prompts):
         raise ValueError(f"{len(embeddings)} embeddings and {len(prompts)} prompts are not aligned")
