@@ -38,11 +38,8 @@ class Side:
 
 def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
     """Every figure that both have, as a report: one table a family.
-
-    Raises:
-        UserError: a folder holds no report, the reports measured different things (data, judge,
-            settings, metrics), a row is missing, or the rows were asked different things.
-    """
+    Raises UserError: a folder holds no report, the reports measured different things (data, judge,
+    settings, metrics), a row is missing, or the rows were asked different things."""
     first, second = read_json(a.folder / manifest.MANIFEST), read_json(b.folder / manifest.MANIFEST)
     found = manifest.differences(first, second)
     differs = [name for name in found if name.split(".")[0] not in FREE]
@@ -52,11 +49,8 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
             " beside each other; evaluate both with the same data, judge and settings"
         )
     ours, theirs = (read_json(side.folder / "report.json") for side in (a, b))
-    tables = [
-        table
-        for grid in grids(ours)
-        if grid.plot and (table := _difference(grid, a, b, seed)) is not None
-    ]
+    found_tables = (_difference(grid, a, b, seed) for grid in grids(ours) if grid.plot)
+    tables = [table for table in found_tables if table is not None]
     if not tables:
         raise UserError(
             f"{a.folder} has no row {a.row!r}, or {b.folder} has no row {b.row!r}"

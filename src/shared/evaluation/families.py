@@ -12,27 +12,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial.distance import pdist
 
-from ..metrics import frechet, retrieval
-from ..metrics.kinetic import (
-    Features,
-    amount,
-    body_features,
-    kinetic_columns,
-    root_features,
-    stacked,
-)
+from ..metrics import frechet, kinetic, retrieval, rhythm
 from ..metrics.measurements import measure
 from ..metrics.physical import contact, physics, travel, travel_error
 from ..metrics.retrieval import BATCH, POOL, RECALL_AT, SUBSET, THRESHOLD
-from ..metrics.rhythm import (
-    against_chance,
-    body_beats,
-    landings,
-    limb_beats,
-    motion_beats,
-    seen_from_pelvis,
-    song_phase,
-)
 from ..metrics.sanity import MEASURES, SEVEN, SanityChecker
 from ..metrics.stage import stage
 from ..motion.motion import Motion
@@ -134,16 +117,16 @@ def _frechet(sample: MotionSample, reference: MotionSample, seed: int) -> dict[s
 
 
 def _kinetics(
-    name: str, pieces: Callable[[Any], Sequence[Features]], kinds: int, suffix: str = ""
+    name: str, pieces: Callable[[Any], Sequence[kinetic.Features]], kinds: int, suffix: str = ""
 ) -> MetricFamily[Any]:
     """Features of the pieces of each motion, `kinds` of them kinetic; no random choice."""
 
     def figures(sample: Any, reference: Any, seed: int) -> dict[str, float]:
         own, real, whole = (
-            stacked([*chain.from_iterable(each.each("kinetic features", pieces))])
+            kinetic.stacked([*chain.from_iterable(each.each("kinetic features", pieces))])
             for each in (sample, reference, reference.whole or reference)
         )
-        found = kinetic_columns(own, real, kinds=kinds, units_of=whole)
+        found = kinetic.kinetic_columns(own, real, kinds=kinds, units_of=whole)
         return {key + suffix: value for key, value in found.items()}
 
     warning = described("kinetic warning")["note"]
@@ -177,7 +160,7 @@ def _obeyed(sample: MotionSample, reference: MotionSample, seed: int) -> list[di
 TMR = tuple(_tmr(protocol) for protocol in retrieval.PROTOCOLS)
 MULTIMODALITY = MetricFamily.of("multimodality", _multimodality)
 BODY_KINETICS = _kinetics(
-    "kinetic and geometric features", lambda motion: [body_features(motion)], kinds=3
+    "kinetic and geometric features", lambda motion: [kinetic.body_features(motion)], kinds=3
 )
 # Physical plausibility is two tables, this and CONTACT; of dances FEET.
 PHYSICS: MetricFamily[MotionSample] = MetricFamily.of(
@@ -204,12 +187,12 @@ TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
 
 def beats_of(trajectory: MotionTrajectory) -> np.ndarray:
     """Times of the motion's beats, seconds."""
-    return motion_beats(trajectory.position, trajectory.fps).times
+    return rhythm.motion_beats(trajectory.position, trajectory.fps).times
 
 
 def beat_scores(times: np.ndarray, dance: Dance[Any], rng: np.random.Generator) -> dict[str, float]:
     """What moments of a dance, seconds [N], score on its music, and above chance."""
-    own, chance, off = against_chance(times, dance.beats, dance.seconds, rng)
+    own, chance, off = rhythm.against_chance(times, dance.beats, dance.seconds, rng)
     return asdict(own) | {
         "beat_distance": own.distance,
         "f_above_turned": own.f - chance.f,
@@ -231,7 +214,7 @@ def _phase(dance: Dance[MotionTrajectory]) -> dict[str, float]:
     if dance.bars is None:
         return {}
     bars = dance.motion.phase_unwrapped
-    return song_phase(bars * dance.counted, bars, dance.bars, dance.meter, dance.beats)
+    return rhythm.song_phase(bars * dance.counted, bars, dance.bars, dance.meter, dance.beats)
 
 
 def _sane(sample: Trajectories, reference: Trajectories, seed: int) -> dict[str, Value]:
@@ -247,7 +230,7 @@ def _sane(sample: Trajectories, reference: Trajectories, seed: int) -> dict[str,
 BEAT_ALIGNMENT = MetricFamily.of("beat alignment", _on_beats)
 TRAJECTORY_SANITY: MetricFamily[Trajectories] = MetricFamily.of("sanity", _sane)
 ROOT_KINETICS = _kinetics(
-    "kinetic and geometric features of the root", root_features, kinds=5, suffix="_root"
+    "kinetic and geometric features of the root", kinetic.root_features, kinds=5, suffix="_root"
 )
 AUDIO_FAMILIES: tuple[MetricFamily[Trajectories], ...] = (
     BEAT_ALIGNMENT,
@@ -259,7 +242,7 @@ AUDIO_FAMILIES: tuple[MetricFamily[Trajectories], ...] = (
 
 # ---------------------------------------------------------------- the performer's
 
-MOMENTS = {"": body_beats, "limbs_": limb_beats, "landing_": landings}
+MOMENTS = {"": rhythm.body_beats, "limbs_": rhythm.limb_beats, "landing_": rhythm.landings}
 
 
 def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
@@ -281,8 +264,8 @@ def _moments(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, flo
 
 def _path_figures(dance: Dance[Motion]) -> dict[str, float]:
     figures = {
-        "joint_speed": amount(dance.motion.positions(), dance.motion.fps),
-        "limb_speed": amount(seen_from_pelvis(dance.motion), dance.motion.fps),
+        "joint_speed": kinetic.amount(dance.motion.positions(), dance.motion.fps),
+        "limb_speed": kinetic.amount(rhythm.seen_from_pelvis(dance.motion), dance.motion.fps),
     }
     if dance.path is None:
         return figures

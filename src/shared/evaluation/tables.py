@@ -128,12 +128,9 @@ def report_data(
     """A whole report as plain data: what report.json holds.
 
     Args:
-        branch: text or audio.
-        about: what was measured with what.
-        settings: amounts and seeds.
-        samples: motions to be looked at, see `Keeper`.
+        about, settings: what was measured with what; amounts and seeds.
+        samples: motions to be looked at: what a bench's `write` says of each, rank and figures.
         pictures: `file` in the report's folder and `title` of each.
-        title: over the pages; the model's name.
         found: more of it for programs; `notes` are lines under `about`.
     """
     return {
@@ -202,17 +199,14 @@ def printed(grid: Grid) -> Table:
     header = [grid.head, *(column.heading for column in grid.columns)]
     rows = [
         [name, *(cell_text(row.cells.get(column.key), column) for column in grid.columns)]
-        + ([counts(row)] if counted else [])
         for name, row in grid.rows.items()
     ]
-    return Table(grid.title, [*header, "N × runs"] if counted else header, rows, grid.note)
-
-
-def counts(row: GridRow) -> str:
-    """Motions times replications."""
-    if row.num is None:
-        return "–"
-    return str(row.num) if row.replications is None else f"{row.num} × {row.replications}"
+    if counted:
+        header.append("N × runs")
+        for cells, row in zip(rows, grid.rows.values(), strict=True):
+            both = (str(number) for number in (row.num, row.replications) if number is not None)
+            cells.append(" × ".join(both) if row.num is not None else "–")
+    return Table(grid.title, header, rows, grid.note)
 
 
 def heading(report: Report) -> list[str]:
@@ -252,14 +246,11 @@ def markdown(report: Report) -> str:
 
 def table_lines(table: Table) -> list[str]:
     """A table in Markdown."""
-    lines = [f"## {_inert(table.title)}", "", _line(table.header), "|" + "---|" * len(table.header)]
-    lines += [_line(row) for row in table.rows]
-    return [*lines, "", table.note, ""] if table.note else [*lines, ""]
-
-
-def _line(cells: Sequence[str]) -> str:
-    """A row in Markdown."""
-    return "| " + " | ".join(map(_inert, cells)) + " |"
+    head, *body = (
+        "| " + " | ".join(map(_inert, row)) + " |" for row in (table.header, *table.rows)
+    )
+    lines = [f"## {_inert(table.title)}", "", head, "|" + "---|" * len(table.header), *body, ""]
+    return [*lines, table.note, ""] if table.note else lines
 
 
 def _inert(text: str) -> str:
