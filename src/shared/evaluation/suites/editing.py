@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...metrics.kinetic import amount
 from ...metrics.physical import jerk_per_speed, support_slide
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
@@ -28,6 +29,7 @@ from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
 from ..tables import Cell, Grid, GridRow
 
+WALK = "a person walks"
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
 RADIUS = 1.5  # metres of the curved paths
 NEAR = 6  # frames on either side of a border
@@ -39,7 +41,7 @@ ACTIONS = (
     "a person walks backward", "a person squats", "a person runs", "a person bows",
     "a person claps",
 )  # fmt: skip
-REDONE = {"left arm": ("left-arm",), "upper body": ("upper-body",), "a second": None}
+REDONE = {"left arm": "left-arm", "upper body": "upper-body", "a second": None}  # joint groups
 
 
 @dataclass(frozen=True)
@@ -65,10 +67,7 @@ class EditContext:
     @cached_property
     def clips(self) -> Clips:
         """Real clips to edit, of at least three seconds, spread over label groups.
-
-        Raises:
-            UserError: there is none.
-        """
+        Raises UserError: there is none."""
         return self._real(self.settings.num, MIN_FRAMES)
 
     @cached_property
@@ -77,14 +76,10 @@ class EditContext:
         real = self._real(self.settings.max_real, 16).motions
         return float(np.percentile(np.concatenate([accelerations(m) for m in real]), TOP))
 
-    def _real(self, number: int, min_frames: int) -> Clips:
+    def _real(self, number: int, least: int) -> Clips:
+        data, clips, seed = self.held_out.data, self.held_out.everything, self.settings.seed
         return real_clips(
-            self.held_out.data,
-            self.held_out.everything,
-            num=number,
-            min_frames=min_frames,
-            max_frames=MAX_FRAMES,
-            seed=self.settings.seed,
+            data, clips, num=number, min_frames=least, max_frames=MAX_FRAMES, seed=seed
         )
 
     @cached_property
@@ -146,47 +141,42 @@ def kept_table(context: EditContext) -> list[Grid]:
 
 def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
     """Clip, what is kept of it, the text for the rest and a seed."""
-    clips = context.clips
-    for index, clip in enumerate(clips.motions):
-        frames = clip.num_frames
-        joints = REDONE.get(kind)
+    for index, clip in enumerate(context.clips.motions):
+        frames, group = clip.num_frames, REDONE.get(kind)
         if kind == "between ends":
             given = keep_ends(clip, clip, 30, frames, rejoin=True)
         else:
-            chosen = None if joints is None else {name for key in joints for name in GROUPS[key]}
-            given = redo(clip, frames // 2 - 15, frames // 2 + 15, chosen)
-        yield clip, given, clips.captions[index], context.settings.seed + index
+            joints = None if group is None else set(GROUPS[group])
+            given = redo(clip, frames // 2 - 15, frames // 2 + 15, joints)
+        yield clip, given, context.clips.captions[index], context.settings.seed + index
 
 
 def _kept_row(context: EditContext, made: Sequence[Edit]) -> GridRow:
     figures = [kept_figures(*each) for each in made]
-    borders = [accelerations(motion)[near_borders(motion, given)] for motion, _, given in made]
+    borders = []
+    for motion, _, given in made:  # where something stops or begins to be known
+        known = given.constraint.known[:, :-1].flatten(1).numpy()
+        places = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+        near = marked(motion.num_frames, ((place, place) for place in places), NEAR)
+        borders.append(accelerations(motion)[near])
     cells: dict[str, Cell] = {}
     for key in ("rotation", "root", "position"):
-        values = np.array([each[key] for each in figures])
-        if not np.isnan(values).all():
-            cells[key] = float(np.nanmax(values))
+        sizes = [each[key] for each in figures if not np.isnan(each[key])]
+        cells |= {key: max(sizes)} if sizes else {}
     cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
     return GridRow(cells | context.against(np.concatenate(borders), "border"), len(made), 1)
 
 
 def kept_figures(motion: Motion, clip: Motion, given: Given) -> dict[str, float]:
-    """How an edit compares with the clip that it was made of; both of T frames.
-
-    Returns:
-        rotation: largest difference of a kept entry of the 6D rotations.
-        root: the same of the root row's velocities (m/s, rad/s) and height (m).
-        position: largest distance in mm of a joint in frames that are kept whole, place apart in
-            what comes after the edit; NaN without such frames.
-        changed: mean distance in cm of a joint from where the clip has it, in edited frames; 0 for
-            who hands the clip back.
-    """
+    """How an edit compares with the clip that it was made of; both of T frames."""
     errors = kept_error(motion, given.constraint)
     whole = given.constraint.known.flatten(1).all(1).numpy()  # T
     apart = np.linalg.norm(from_pelvis(motion) - from_pelvis(clip), axis=-1)  # T K
     return {
-        "rotation": errors["rotation"],
-        "root": errors["root"],
+        "rotation": errors["rotation"],  # largest difference of a kept entry of the 6D rotations
+        "root": errors["root"],  # the same of the root row: m/s, rad/s, and m of height
+        # largest distance in mm of a joint in frames that are kept whole, place apart in what
+        # comes after the edit; mean distance in cm of a joint from the clip in edited frames
         "position": 1000 * float(apart[whole].max()) if whole.any() else float("nan"),
         "changed": 100 * float(apart[~whole].mean()) if (~whole).any() else float("nan"),
     }
@@ -197,13 +187,6 @@ def from_pelvis(motion: Motion) -> np.ndarray:
     height = np.zeros((motion.num_frames, 1, 3))
     height[:, 0, 1] = motion.root_position[:, 1]
     return np.concatenate((seen_from_pelvis(motion), height), axis=1)
-
-
-def near_borders(motion: Motion, given: Given) -> np.ndarray:
-    """True [T] around the frames at which something stops or begins to be known."""
-    known = given.constraint.known[:, :-1].flatten(1).numpy()
-    borders = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
-    return marked(motion.num_frames, ((each, each) for each in borders), NEAR)
 
 
 def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
@@ -232,8 +215,7 @@ def path_table(context: EditContext) -> list[Grid]:
         still, free = [], []
         for seed, (motion, points, _) in enumerate(made):
             still.append((held_still(motion), points, drawn))
-            words = ["a person walks"]
-            (alone,) = context.generator.generate(words, seconds=motion.seconds, seed=seed)
+            (alone,) = context.generator.generate([WALK], seconds=motion.seconds, seed=seed)
             free.append((alone, points, drawn))
         rows[f"{shape}: frozen pose"] = _path_row(still)
         rows[f"{shape}: words alone"] = _path_row(free)
@@ -253,7 +235,7 @@ def drawn_paths() -> dict[str, DrawnPath]:
 
 def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
     settings = Sampling(seed=seed % 2**31)
-    passage = Passage("a person walks", 1)
+    passage = Passage(WALK, 1)
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
     speed, facing, _ = natural_gait(generator, passage, settings)
     path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
@@ -266,14 +248,13 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
         ground = motion.root_position[:, [0, 2]].astype(np.float64)
         frames = min(len(ground), len(points))
         apart = np.linalg.norm(ground[:frames] - points[:frames], axis=1)
-        steps = np.linalg.norm(np.diff(seen_from_pelvis(motion), axis=0), axis=-1)
         joints, fps = motion.positions().astype(np.float64), motion.fps
         rows.append(
             {
                 "mean": 100 * float(apart.mean()),
                 "max": 100 * float(apart.max()),
                 "line": 100 * float(distances_to_line(ground, drawn.points).mean()),
-                "limb_speed": float(steps.mean() * fps),
+                "limb_speed": amount(seen_from_pelvis(motion), fps),
                 "support": support_slide(joints, fps),
                 "rough": jerk_per_speed(joints, fps),
             }
@@ -295,22 +276,15 @@ def transition_table(context: EditContext, judge: Evaluator) -> list[Grid]:
             timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
             made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
     context.progress("transitions: hard cut")
-    made["hard cut"] = [
-        hard_cut(*context.generator.generate(pair, seconds=HALF / 30, seed=seed + k))
-        for k, pair in enumerate(pairs)
-    ]
+    made["hard cut"] = []  # what a transition looks like that nobody made
+    for k, pair in enumerate(pairs):
+        first, second = context.generator.generate(pair, seconds=HALF / 30, seed=seed + k)
+        second = moved_to(second, place_of(first, first.num_frames - 1))
+        made["hard cut"].append(joined(first, second))
     made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
     rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
     words = {"pairs": len(pairs), "HALF": HALF, "AROUND": AROUND, "actions": len(ACTIONS)}
     return [Grid.of("transitions", rows, words)]
-
-
-def hard_cut(first: Motion, second: Motion) -> Motion:
-    """Two motions one after the other: the second goes on from the place of the first's end.
-
-    What a transition looks like that nobody made.
-    """
-    return joined(first, moved_to(second, place_of(first, first.num_frames - 1)))
 
 
 def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
@@ -325,7 +299,6 @@ def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Eval
         for motion, pair in zip(motions, context.pairs, strict=True):
             seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
             distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
-            nearest = rank_of(distances, ACTIONS.index(pair[which])) < 1
-            hits.append(float(nearest.mean()))
+            hits.append((rank_of(distances, ACTIONS.index(pair[which])) < 1).mean())
         cells[key] = bootstrap_mean(hits)
     return GridRow(cells, len(motions), 1)

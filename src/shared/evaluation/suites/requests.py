@@ -15,26 +15,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ...data.captions.requests import (
-    COMPOSITIONS,
-    FREE,
-    OUTSIDE,
-    Request,
-    drawn,
-    load_requests,
-)
+from ...data.captions.requests import COMPOSITIONS, FREE, OUTSIDE, Request, drawn, load_requests
 from ...data.prepared import ClipRecord, PreparedData
 from ...metrics.frechet import frechet_distance
 from ...metrics.measurements import at_rest, measure
 from ...metrics.physical import foot_jump, support_slide, worst_acceleration
 from ...motion.motion import Motion
-from ..actions import (
-    MIN_FRAMES,
-    ActionJudge,
-    Generator,
-    same_action,
-    shown,
-)
+from ..actions import MIN_FRAMES, ActionJudge, Generator, same_action, shown
 from ..engine import Progress
 from ..samples import frozen_pose, rows_of_each, spread_over_groups
 from ..stats import Estimate, bootstrap_mean, replicated, share_of
@@ -77,8 +64,7 @@ def evaluate_requests(
             back is the reference.
         floors: models of which the first tables have a row too, by its name.
 
-    Raises:
-        UserError: the data holds too few captured clips, or the model is untrained.
+    Raises UserError: the data holds too few captured clips, or the model is untrained.
     """
     settings, floors = settings or RequestSettings(), floors or {}
     yardstick = Yardstick(data, settings, progress)
@@ -89,21 +75,21 @@ def evaluate_requests(
     def make(texts: Sequence[str], by: Generator = model) -> Seen:
         return Seen.of(by.generate(texts, seconds=settings.seconds, seed=settings.seed))
 
+    def still(seen: Seen) -> Seen:
+        return Seen.of([frozen_pose(motion) for motion in seen.motions])
+
     with errors_only():
         progress(f"{len(plain)} plain requests")
         made, few = make([r.text for r in plain]), plain[::FLOOR_SHARE]
-        still = Seen.of([frozen_pose(motion) for motion in made.motions])
-        rows = {"generated": Asked(plain, made), "frozen pose": Asked(plain, still)}
+        rows = {"generated": Asked(plain, made), "frozen pose": Asked(plain, still(made))}
         for name, floor in floors.items():
             progress(f"{len(few)} of them by {name}")
             rows[name] = Asked(few, make([r.text for r in few], floor))
         progress("those that are compared with captured clips, as long as these are")
         makers = {"generated": (model, plain), **{n: (each, few) for n, each in floors.items()}}
         compared = {name: _as_long(yardstick, *each) for name, each in makers.items()}
-        compared["frozen pose"] = [
-            Asked(alike.requests, Seen.of([frozen_pose(motion) for motion in alike.seen.motions]))
-            for alike in compared["generated"]
-        ]
+        alike = compared["generated"]
+        compared["frozen pose"] = [Asked(each.requests, still(each.seen)) for each in alike]
         progress("numbers, sides, styles and compositions")
         tables = [
             _obedience(yardstick, rows),
@@ -242,8 +228,7 @@ def _realism(
         own = [{**record.labels, "action": record.tag} for record in records]
         found[name] = row(seen, own, _distances(yardstick, asked, [seen], records))
     for name, each in rows.items():
-        alike = compared[name]
-        apart = dict[str, Cell]()
+        alike, apart = compared[name], dict[str, Cell]()
         if alike:
             apart = _distances(yardstick, alike[0].labels, [one.seen for one in alike])
         found[name] = row(each.seen, each.labels, apart)
@@ -272,14 +257,14 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     def obeys(request: Request, motion: Motion) -> bool:
         return bool(yardstick.obeyed([request.labels], Seen.of([motion]))[0])
 
+    def covers(request: Request, motion: Motion) -> bool:  # from where it began to where it ends
+        way = np.linalg.norm(motion.root_position[-1, [0, 2]] - motion.root_position[0, [0, 2]])
+        return bool(abs(way / float(request.labels["metres"]) - 1) <= 0.2)
+
     for section in ("counts", "angles", "sides"):
         row(section, of(section), obeys)
     row("lengths, ±20%", [r for r in of("lengths") if "metres" in r.labels], covers)
-    row(
-        "two sides at once",
-        of("sides", simultaneous=True),
-        lambda r, motion: shown(r.parts, motion),
-    )
+    row("two sides at once", of("sides", simultaneous=True), lambda r, m: shown(r.parts, m))
     if sequences := of(COMPOSITIONS):
         acted, order = make([r.text for r in sequences]).motions, partial(in_order, yardstick)
         others = _of_other_actions([r.action for r in sequences], settings.seed)
@@ -297,7 +282,9 @@ def _exactness(yardstick: Yardstick, model: Model, requests: Sequence[Request], 
     rows["spread of a gesture, cm"] = _spread_row(yardstick, model, gestures)
     for seconds in LONG_WALKS:
         walk = model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
-        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": mean_speed(walk)}, 1)
+        steps = np.linalg.norm(np.diff(walk.root_position[:, [0, 2]], axis=0), axis=-1)
+        speed = float(steps.sum() / walk.seconds)
+        rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": speed}, 1)
     return Grid.of("exactness", rows)
 
 
@@ -311,25 +298,23 @@ def _gestures(yardstick: Yardstick, gestures: Sequence[Request], seen: Seen) -> 
     theirs = [(at_rest(motion), done) for motion, done in whole]
     turned = [bootstrap_mean([abs(math.degrees(measure(m).yaw)) for m in motions])
               for motions in (seen.motions, [motion for motion, _ in whole])]  # fmt: skip
+    obeyed = share_of(rests & does), share_of([rest and done for rest, done in theirs])
     cells = {
         "gestures from rest to rest": (share_of(rests), share_of([rest for rest, _ in theirs])),
-        "the same, and obeyed": (
-            share_of(rests & does), share_of([rest and done for rest, done in theirs])
-        ),
+        "the same, and obeyed": obeyed,
         "gestures: turned by, degrees": turned,
-    }  # fmt: skip
-    return {name: GridRow({"share": made, "real": real}, len(seen))
-            for name, (made, real) in cells.items()}  # fmt: skip
+    }
+    return {
+        k: GridRow({"share": made, "real": real}, len(seen)) for k, (made, real) in cells.items()
+    }
 
 
 def _spread_row(yardstick: Yardstick, model: Model, gestures: Sequence[Request]) -> GridRow:
     """How far apart motions for one sentence are, over seeds; and captured clips of one label."""
     settings = yardstick.settings
     prompts = [r.text for r in gestures if r.language == settings.languages[0]]
-    by_seed = [
-        model.generate(prompts, seconds=settings.seconds, seed=seed)
-        for seed in range(settings.variety_seeds)
-    ]
+    seeds = range(settings.variety_seeds)
+    by_seed = [model.generate(prompts, seconds=settings.seconds, seed=seed) for seed in seeds]
     made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
     pairs = zip(yardstick.records, yardstick.real.motions, strict=True)
     long = [(record.group, motion) for record, motion in pairs
@@ -360,9 +345,9 @@ def _styles(yardstick: Yardstick, wanted: Sequence[Request], make: Make) -> dict
     made = make([r.text for r in wanted])
     heard = np.array(judge(made.features)) == np.array([r.labels["style"] for r in wanted])
     walks = [action == "walk" for action in yardstick.shows(made)]
-    heard_cells = {"share": share_of(heard), "real": share_of(right)}
+    both = {"share": share_of(heard), "real": share_of(right)}
     return {
-        "styled walks: style heard": GridRow(heard_cells, len(made)),
+        "styled walks: style heard": GridRow(both, len(made)),
         "styled walks: still a walk": GridRow({"share": share_of(walks)}, len(made)),
     }
 
@@ -436,25 +421,10 @@ def gaits(seen: Seen, labels: Sequence[dict[str, str]], top_run: float) -> dict[
     }
 
 
-def covers(request: Request, motion: Motion) -> bool:
-    """Whether a motion ends so many metres from where it began as were asked for, ±20%."""
-    way = np.linalg.norm(motion.root_position[-1, [0, 2]] - motion.root_position[0, [0, 2]])
-    return bool(abs(way / float(request.labels["metres"]) - 1) <= 0.2)
-
-
-def mean_speed(motion: Motion) -> float:
-    """Of the pelvis over the ground, m/s."""
-    way = np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=-1).sum()
-    return float(way / motion.seconds)
-
-
 def in_order(yardstick: Yardstick, request: Request, motion: Motion) -> bool:
     """Whether the parts are seen one after the other, each in some window of PIECES frames."""
-    windows = [
-        (at, at + length)
-        for length in PIECES
-        for at in range(0, max(motion.num_frames - length, 0) + 1, HOP)
-    ]
+    starts = {size: range(0, max(motion.num_frames - size, 0) + 1, HOP) for size in PIECES}
+    windows = [(at, at + size) for size, places in starts.items() for at in places]
     windows.sort(key=lambda window: window[1])
     pieces = Seen.of([motion.frames(*window) for window in windows])
     rest = iter(list(zip(yardstick.shows(pieces), pieces.motions, strict=True)))

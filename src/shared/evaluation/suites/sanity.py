@@ -73,8 +73,7 @@ def evaluate_sanity(
             split gives the bands, at the same number of frames. None = held-out synthetic songs.
         about: what to repeat in the report.
 
-    Raises:
-        UserError: the data cannot be used.
+    Raises UserError: the data cannot be used.
     """
     settings, started = settings or SanitySettings(), time.perf_counter()
     model, bands = generator.model, generator.bands
@@ -124,12 +123,11 @@ def _from_data(
         )
     learned = phrases(train, settings.max_training, whole=True)
     bands = Bands.of(phrase.motion for phrase in learned)
-    same = model.card.data == train.fingerprint
+    kept = "yes: the model was trained on this data's train split"
+    unknown = "unknown: the model was trained on other data than this train split"
     facts = {
         "sound": f"test split of {data}",
-        "held_out": "yes: the model was trained on this data's train split"
-        if same
-        else "unknown: the model was trained on other data than this train split",
+        "held_out": kept if model.card.data == train.fingerprint else unknown,
         "test_phrases": len(held_back),
         "training_windows": len(learned),
         "data_hash": test.fingerprint[:12],
@@ -137,10 +135,8 @@ def _from_data(
     heard = list(held_back)
     for draw in range(1, math.ceil(settings.num_samples / len(held_back))):
         heard += phrases(test, len(held_back), whole=True, draw=draw)  # other windows of the same
-    songs = [
-        SongCondition(phrase.audio, phrase.bars, phrase.beats, number)
-        for number, phrase in enumerate(heard[: settings.num_samples])
-    ]
+    asked = enumerate(heard[: settings.num_samples])
+    songs = [SongCondition(each.audio, each.bars, each.beats, number) for number, each in asked]
     return songs, [phrase.motion for phrase in held_back], bands, facts
 
 
@@ -159,15 +155,8 @@ def sampled(
     return made
 
 
-# ---------------------------------------------------------------- verdict
-
-
 def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str, Any]:
-    """What must hold, by name: value and whether it does.
-
-    Args:
-        rows: of `sanity_row`, by name.
-        bands: of training motions, if known.
+    """What must hold of `sanity_row` by name, with the bands of training motions if known.
 
     Returns:
         seven_checks: share of generated motions that pass all of the documents' checks, Wilson
@@ -194,23 +183,17 @@ def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str
     return result
 
 
-# ---------------------------------------------------------------- tables and a picture
-
-
 def sanity_grids(
     rows: Mapping[str, dict[str, Any]], bands: Bands | None, found: Mapping[str, Any]
 ) -> Iterator[Grid]:
     """Every table of the report, in reading order; `found` is the verdict."""
     named = [Column(key, key.replace("_", " "), 0) for key in COLUMNS]
     columns = (Column("passed_seven", "seven", 0), Column("passed", "suite", 0), *named)
-    passed = {
-        name: GridRow(
-            {key: row["checks"][key]["passed"] for key in COLUMNS if key in row["checks"]}
-            | {key: row[key] for key in ("passed_seven", "passed")},
-            row["motions"],
-        )
-        for name, row in rows.items()
-    }
+    passed = {}
+    for name, row in rows.items():
+        cells = {key: row["checks"][key]["passed"] for key in COLUMNS if key in row["checks"]}
+        cells |= {key: row[key] for key in ("passed_seven", "passed")}
+        passed[name] = GridRow(cells, row["motions"])
     yield Grid.of("motions that pass", passed, name="sanity", columns=columns)
     if bands is not None:
         known = {k: bands.bands[k] for k in rows["generated"]["inside"]}
@@ -241,10 +224,7 @@ def plot_bands(
     motions: Mapping[str, Sequence[MotionTrajectory]], bands: Bands | None, path: str | Path
 ) -> Path:
     """Every motion as a dot for each measure, over the band of training motions.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
+    Raises UserError: matplotlib is missing, or the file cannot be written."""
     figure = new_figure(14, 7)
     for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
         band = bands.bands.get(name) if bands else None

@@ -160,7 +160,7 @@ def test_only_who_listens_is_found_by_its_prompt(listens: bool) -> None:
         songs += text[0]
     found = effect(songs, np.full((3, 16), 0.5), np.zeros((3, 16)), text)
     if listens:
-        assert found["gain"]["low"] > 1 and found["r_at_1"]["value"] == 1
+        assert found["gain"].low > 1 and found["r_at_1"].value == 1
     else:
-        assert abs(found["gain"]["value"]) < 0.02 and found["r_at_1"]["value"] < 0.3
-    assert found["f"]["value"] == 0.5
+        assert abs(found["gain"].value) < 0.02 and found["r_at_1"].value < 0.3
+    assert found["f"].value == 0.5
