@@ -159,9 +159,8 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
         except UserError as error:
             if not bench.optional:
                 raise
-            row = GridRow({"why": str(error)})
-            title = f"{bench.name}: not measured"
-            tables.append(Grid(bench.name, title, (Column("why", "why"),), {bench.name: row}))
+            rows, title = {bench.name: GridRow({"why": str(error)})}, f"{bench.name}: not measured"
+            tables.append(Grid(bench.name, title, (Column("why", "why"),), rows))
             continue
         tables += [*grids, *([bench.summary(grids)] if bench.summary is not None else [])]
         samples += parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])

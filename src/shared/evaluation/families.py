@@ -278,17 +278,16 @@ def _path_figures(dance: Dance[Motion]) -> dict[str, float]:
     }
 
 
+GROUND = {
+    "contact": "contact_slide", "support": "support_slide", "skating": "skating_frames",
+    "sunk": "sunk_depth", "floating": "float_height", "jerk": "jerk",
+    "jerk_per_speed": "jerk_per_speed",
+}  # fmt: skip
+
+
 def _ground(motion: Motion) -> dict[str, float]:
-    speeds, floor = physics(motion), contact(motion)
-    return {
-        "contact": speeds["contact_slide"],
-        "support": speeds["support_slide"],
-        "skating": floor["skating_frames"],
-        "sunk": floor["sunk_depth"],
-        "floating": floor["float_height"],
-        "jerk": speeds["jerk"],
-        "jerk_per_speed": floor["jerk_per_speed"],
-    }
+    figures = physics(motion) | contact(motion)
+    return {name: figures[key] for name, key in GROUND.items()}
 
 
 def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
@@ -297,8 +296,7 @@ def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]
         before = after
         if dance.raw is not None:
             before = dance.memo.once("feet before", partial(_ground, dance.raw))
-        earlier = {f"{key}_before": figure for key, figure in before.items()}
-        rows.append(after | earlier)
+        rows.append(after | {f"{key}_before": figure for key, figure in before.items()})
     return rows
 
 

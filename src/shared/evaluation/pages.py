@@ -106,11 +106,9 @@ def _css(name: str) -> str:
 
 def _note(text: str) -> str:
     """Markdown's emphasis and code, nothing else."""
-    if not text:
-        return ""
     marked = re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
     marked = re.sub(r"\*([^*\s][^*]*)\*", r"<em>\1</em>", marked)
-    return f'<p class="note">{marked}</p>'
+    return f'<p class="note">{marked}</p>' if text else ""
 
 
 def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ..model.generation.motion_generator import TextToMotion
 
 Found = TypeVar("Found")
+Name = TypeVar("Name", str, int)
 Moved = TypeVar("Moved", MotionTrajectory, Motion)
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
@@ -248,9 +249,9 @@ def choose_caption(captions: Sequence[str], key: str, seed: int) -> str:
     return captions[int(rng.integers(len(captions)))]
 
 
-def rows_of_each(names: Iterable[str]) -> dict[str, list[int]]:
+def rows_of_each(names: Iterable[Name]) -> dict[Name, list[int]]:
     """The rows of each name, ascending, names as they first come."""
-    rows: dict[str, list[int]] = {}
+    rows: dict[Name, list[int]] = {}
     for row, name in enumerate(names):
         rows.setdefault(name, []).append(row)
     return rows

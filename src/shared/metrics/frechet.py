@@ -106,11 +106,8 @@ def group_frechet(
     """
     project = Projection.fit(real, min(GROUP_AXES, real.shape[1]))
     made, true = np.asarray(generated_labels), np.asarray(real_labels)
-    names = [
-        name
-        for name in sorted(set(generated_labels) & set(real_labels))
-        if min((made == name).sum(), (true == name).sum()) >= GROUP_SIZE
-    ]
+    shared = sorted(set(generated_labels) & set(real_labels))
+    names = [n for n in shared if min((made == n).sum(), (true == n).sum()) >= GROUP_SIZE]
     if len(names) < 2:
         return None
     a = {name: _moments(project(generated[made == name])) for name in names}

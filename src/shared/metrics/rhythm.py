@@ -240,13 +240,8 @@ def rhythm(motion: np.ndarray, music: np.ndarray, seconds: float) -> Rhythm:
     made, heard = _inside(motion, seconds), _inside(music, seconds)
     forth, back, f = _both_ways(made, heard, motion, music)
     near = len(made) and len(music)
-    return Rhythm(
-        motion_to_music=forth,
-        music_to_motion=back,
-        f=f,
-        hits=hit_f_measure(heard, made),
-        distance=float(np.median(distances(made, music))) if near else float("nan"),
-    )
+    distance = float(np.median(distances(made, music))) if near else float("nan")
+    return Rhythm(forth, back, f, hit_f_measure(heard, made), distance)
 
 
 def rhythm_f(motion: np.ndarray, music: np.ndarray, seconds: float) -> float:

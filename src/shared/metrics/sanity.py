@@ -425,6 +425,7 @@ def sanity_row(
         count = sum(results[key].passed for _, results in outcomes)
         checks[key] = {"passed": count, "mean": mean if np.isfinite(mean) else None}
     known = [] if bands is None else [bands.inside(motion) for motion in motions]
+    failed = [[r.name for r in results.values() if not r.passed] for _, results in outcomes]
     seven = sum(all(results[key].passed for key in SEVEN) for _, results in outcomes)
     passed = sum(good for good, _ in outcomes)
     return {
@@ -435,9 +436,5 @@ def sanity_row(
         "rate": passed / len(motions) if motions else None,
         "checks": checks,
         "inside": {k: float(np.mean([r[k] for r in known])) for k in (known[0] if known else ())},
-        "failures": [
-            {"index": index, "failed": [r.name for r in results.values() if not r.passed]}
-            for index, (good, results) in enumerate(outcomes)
-            if not good
-        ],
+        "failures": [{"index": i, "failed": names} for i, names in enumerate(failed) if names],
     }

@@ -177,12 +177,10 @@ def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
         fits = [m for m, own in pairs if any(wanted.items() <= own.items() for wanted in labels)]
         return [measure(motion) for motion in fits]
 
-    motions = matching(task.labels)
+    motions, others = matching(task.labels), matching([task.versus]) if task.versus else []
     if task.versus is None:
         return rate(task, motions, [])
-    others = matching([task.versus])
-    pairs = [(a, b) for a in motions for b in others]
-    return rate(task, [a for a, _ in pairs], [b for _, b in pairs])
+    return rate(task, [a for a in motions for _ in others], others * len(motions))
 
 
 def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:

@@ -186,8 +186,7 @@ def clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
 
 def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongCondition]:
     """Windows of held-out synthetic songs, several of each."""
-    seconds, each = 30.0, max(1, int(30.0 * FPS) // frames)
-    seconds = max(seconds, frames / FPS)
+    seconds, each = max(30.0, frames / FPS), max(1, int(30.0 * FPS) // frames)
     found: list[SongCondition] = []
     for piece in held_out_songs(-(-number // each), seconds, seed):
         for part in (slice(k * frames, (k + 1) * frames) for k in range(each)):

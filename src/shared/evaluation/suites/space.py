@@ -80,7 +80,6 @@ class Windows:
         """
         items: list[Window] = []
         records: list[PhraseRecord] = []
-        of_phrase: list[list[int]] = []
         for number, record in enumerate(dataset.phrases):
             phrase = dataset.whole(number)
             if phrase is None:
@@ -91,12 +90,9 @@ class Windows:
                 shown = stretched(audio, phrase.phase, phrase.body, rate)
                 cuts = cut_at_bars(shown[1], bars=bars, step=step, min_frames=min_frames)
                 parts = [slice(start, min(stop, start + max_frames)) for start, stop in cuts]
-                first = len(items)
                 items += [Window(len(records), shown[0][:, p], shown[2][p]) for p in parts]
-                if parts:
-                    records.append(record)
-                    of_phrase.append(list(range(first, len(items))))
-        return cls(items, records, of_phrase)
+                records += [record] if parts else []
+        return cls(items, records, list(rows_of_each(item.phrase for item in items).values()))
 
     def sounds(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
         """Conditions [B,167,T] of windows, padded with zeros, and their mask [B,T]."""
