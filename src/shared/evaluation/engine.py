@@ -241,7 +241,7 @@ def _measure(
 
 def _short(value: float, digits: int) -> Any:
     """A figure rounded, for JSON."""
-    return plain(float(f"{value:.{digits}g}"))
+    return plain(float(f"{float(value):.{digits}g}"))
 
 
 def _keep_worst(

@@ -45,7 +45,7 @@ from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained
 from ..stats import Estimate, bootstrap_columns
 from ..tables import Grid, GridRow, Report
 from .alignment import alignment_grids, danced
-from .editing import EditContext, kept_table, path_table, transition_table
+from .editing import EditContext
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
 
 PROMPTS = (
@@ -464,9 +464,9 @@ def evaluate_performer(
     }
     if edits is not None:
         tables |= {
-            "edits": partial(kept_table, edits),
-            "paths": partial(path_table, edits),
-            "transitions": partial(transition_table, edits, context.judge),
+            "edits": edits.kept,
+            "paths": edits.paths,
+            "transitions": partial(edits.transitions, context.judge),
         }
     facts = {
         **about,

@@ -41,6 +41,8 @@ ACTIONS = (
     "a person walks backward", "a person squats", "a person runs", "a person bows",
     "a person claps",
 )  # fmt: skip
+Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
+Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
 REDONE = {"left arm": "left-arm", "upper body": "upper-body", "a second": None}  # joint groups
 
 
@@ -57,7 +59,7 @@ class EditSettings:
 
 @dataclass(frozen=True, eq=False)
 class EditContext:
-    """Everything the tables of editing draw on: real clips, models, pairs of actions."""
+    """Real clips, models, pairs of actions, and the tables of editing."""
 
     generator: TextToMotion  # the text branch
     held_out: HeldOut  # clips that no training saw
@@ -109,62 +111,111 @@ class EditContext:
             "beyond": 100 * float((sizes > self.limit).mean()),
         }
 
+    # ---------------------------------------------------------------- tables
+
+    def kept(self) -> list[Grid]:
+        """A row a kind of edit, and floors."""
+        rows = {}
+        for who, generator in self.generators.items():
+            for kind in ("between ends", *REDONE):
+                self.progress(f"edits: {kind}, {who}")
+                made = []
+                for clip, given, text, seed in self._tasks(kind):
+                    motion = edited(generator, text, given, Sampling(seed=seed)).motion
+                    made.append((motion, clip, given))
+                rows[f"{kind}: {who}"] = self._kept_row(made)
+        tasks = [(clip, given) for clip, given, _, _ in self._tasks("a second")]
+        back = [(clip, clip, given) for clip, given in tasks]
+        others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
+        rows["a second: clip handed back"] = self._kept_row(back)
+        rows["a second: another clip's poses"] = self._kept_row(others)
+        return [Grid.of("edits", rows, {"clips": len(tasks)})]
+
+    def _tasks(self, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
+        """Clip, what is kept of it, the text for the rest and a seed."""
+        for index, clip in enumerate(self.clips.motions):
+            frames, group = clip.num_frames, REDONE.get(kind)
+            if kind == "between ends":
+                given = keep_ends(clip, clip, 30, frames, rejoin=True)
+            else:
+                joints = None if group is None else set(GROUPS[group])
+                given = redo(clip, frames // 2 - 15, frames // 2 + 15, joints)
+            yield clip, given, self.clips.captions[index], self.settings.seed + index
+
+    def _kept_row(self, made: Sequence[Edit]) -> GridRow:
+        figures = [kept_figures(*each) for each in made]
+        borders = []
+        for motion, _, given in made:  # where something stops or begins to be known
+            known = given.constraint.known[:, :-1].flatten(1).numpy()
+            places = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+            near = marked(motion.num_frames, ((place, place) for place in places), NEAR)
+            borders.append(accelerations(motion)[near])
+        cells: dict[str, Cell] = {}
+        for key in ("rotation", "root", "position"):
+            sizes = [each[key] for each in figures if not np.isnan(each[key])]
+            cells |= {key: max(sizes)} if sizes else {}
+        cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
+        return GridRow(cells | self.against(np.concatenate(borders), "border"), len(made), 1)
+
+    def paths(self) -> list[Grid]:
+        """A row a shape and a maker."""
+        rows = {}
+        number = self.settings.repeats
+        seeds = np.random.SeedSequence(self.settings.seed).generate_state(number).tolist()
+        for shape, drawn in drawn_paths().items():
+            for who, generator in self.generators.items():
+                self.progress(f"paths: {shape}, {who}")
+                made = [_follow(generator, drawn, seed) for seed in seeds]
+                rows[f"{shape}: {who}"] = _path_row(made)
+            still, free = [], []
+            for seed, (motion, points, _) in enumerate(made):
+                still.append((held_still(motion), points, drawn))
+                (alone,) = self.generator.generate([WALK], seconds=motion.seconds, seed=seed)
+                free.append((alone, points, drawn))
+            rows[f"{shape}: frozen pose"] = _path_row(still)
+            rows[f"{shape}: words alone"] = _path_row(free)
+        return [Grid.of("paths", rows, {"num": number})]
+
+    def transitions(self, judge: Evaluator) -> list[Grid]:
+        """One action after the other."""
+        seed, pairs, made = self.settings.seed, self.pairs, dict[str, list[Motion]]()
+        for who, generator in self.generators.items():
+            self.progress(f"transitions: {who}")
+            made[who], sentences = [], SentenceGenerator(generator)
+            for k, pair in enumerate(pairs):
+                timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
+                made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
+        self.progress("transitions: hard cut")
+        made["hard cut"] = []  # what a transition looks like that nobody made
+        for k, pair in enumerate(pairs):
+            first, second = self.generator.generate(pair, seconds=HALF / 30, seed=seed + k)
+            second = moved_to(second, place_of(first, first.num_frames - 1))
+            made["hard cut"].append(joined(first, second))
+        made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
+        rows = {who: self._transition_row(motions, judge) for who, motions in made.items()}
+        words = {"pairs": len(pairs), "HALF": HALF, "AROUND": AROUND, "actions": len(ACTIONS)}
+        return [Grid.of("transitions", rows, words)]
+
+    def _transition_row(self, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
+        text = judge.embed_text(ACTIONS).numpy()
+        sizes = [accelerations(motion) for motion in motions]
+        change = np.concatenate([values[HALF - AROUND : HALF + AROUND] for values in sizes])
+        rest = [np.delete(each, slice(HALF - AROUND, HALF + AROUND)) for each in sizes]
+        cells = self.against(change, "near")
+        cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
+        for which, key in enumerate(("before", "after")):
+            hits = []
+            for motion, pair in zip(motions, self.pairs, strict=True):
+                seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
+                distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
+                hits.append((rank_of(distances, ACTIONS.index(pair[which])) < 1).mean())
+            cells[key] = bootstrap_mean(hits)
+        return GridRow(cells, len(motions), 1)
+
 
 def accelerations(motion: Motion) -> np.ndarray:
     """Of each frame [T] the largest acceleration of a joint in m/s²; 0 at the ends."""
     return body_quantities(motion)[ACCELERATION]
-
-
-# ---------------------------------------------------------------- what is kept
-
-Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
-
-
-def kept_table(context: EditContext) -> list[Grid]:
-    """A row a kind of edit, and floors."""
-    rows = {}
-    for who, generator in context.generators.items():
-        for kind in ("between ends", *REDONE):
-            context.progress(f"edits: {kind}, {who}")
-            made = []
-            for clip, given, text, seed in _tasks(context, kind):
-                motion = edited(generator, text, given, Sampling(seed=seed)).motion
-                made.append((motion, clip, given))
-            rows[f"{kind}: {who}"] = _kept_row(context, made)
-    tasks = [(clip, given) for clip, given, _, _ in _tasks(context, "a second")]
-    back = [(clip, clip, given) for clip, given in tasks]
-    others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
-    rows["a second: clip handed back"] = _kept_row(context, back)
-    rows["a second: another clip's poses"] = _kept_row(context, others)
-    return [Grid.of("edits", rows, {"clips": len(tasks)})]
-
-
-def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
-    """Clip, what is kept of it, the text for the rest and a seed."""
-    for index, clip in enumerate(context.clips.motions):
-        frames, group = clip.num_frames, REDONE.get(kind)
-        if kind == "between ends":
-            given = keep_ends(clip, clip, 30, frames, rejoin=True)
-        else:
-            joints = None if group is None else set(GROUPS[group])
-            given = redo(clip, frames // 2 - 15, frames // 2 + 15, joints)
-        yield clip, given, context.clips.captions[index], context.settings.seed + index
-
-
-def _kept_row(context: EditContext, made: Sequence[Edit]) -> GridRow:
-    figures = [kept_figures(*each) for each in made]
-    borders = []
-    for motion, _, given in made:  # where something stops or begins to be known
-        known = given.constraint.known[:, :-1].flatten(1).numpy()
-        places = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
-        near = marked(motion.num_frames, ((place, place) for place in places), NEAR)
-        borders.append(accelerations(motion)[near])
-    cells: dict[str, Cell] = {}
-    for key in ("rotation", "root", "position"):
-        sizes = [each[key] for each in figures if not np.isnan(each[key])]
-        cells |= {key: max(sizes)} if sizes else {}
-    cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
-    return GridRow(cells | context.against(np.concatenate(borders), "border"), len(made), 1)
 
 
 def kept_figures(motion: Motion, clip: Motion, given: Given) -> dict[str, float]:
@@ -195,31 +246,6 @@ def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
     pose = clip.quaternions.copy()
     pose[where, 1:] = other.quaternions[where % other.num_frames, 1:]
     return replace(clip, quaternions=pose)
-
-
-# ---------------------------------------------------------------- paths
-
-Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
-
-
-def path_table(context: EditContext) -> list[Grid]:
-    """A row a shape and a maker."""
-    rows = {}
-    number = context.settings.repeats
-    seeds = np.random.SeedSequence(context.settings.seed).generate_state(number).tolist()
-    for shape, drawn in drawn_paths().items():
-        for who, generator in context.generators.items():
-            context.progress(f"paths: {shape}, {who}")
-            made = [_follow(generator, drawn, seed) for seed in seeds]
-            rows[f"{shape}: {who}"] = _path_row(made)
-        still, free = [], []
-        for seed, (motion, points, _) in enumerate(made):
-            still.append((held_still(motion), points, drawn))
-            (alone,) = context.generator.generate([WALK], seconds=motion.seconds, seed=seed)
-            free.append((alone, points, drawn))
-        rows[f"{shape}: frozen pose"] = _path_row(still)
-        rows[f"{shape}: words alone"] = _path_row(free)
-    return [Grid.of("paths", rows, {"num": number})]
 
 
 def drawn_paths() -> dict[str, DrawnPath]:
@@ -261,44 +287,3 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
         )
     furthest = max(row["max"] for row in rows)
     return GridRow({**bootstrap_columns(rows), "max": furthest}, len(made), 1)
-
-
-# ---------------------------------------------------------------- transitions
-
-
-def transition_table(context: EditContext, judge: Evaluator) -> list[Grid]:
-    """One action after the other."""
-    seed, pairs, made = context.settings.seed, context.pairs, dict[str, list[Motion]]()
-    for who, generator in context.generators.items():
-        context.progress(f"transitions: {who}")
-        made[who], sentences = [], SentenceGenerator(generator)
-        for k, pair in enumerate(pairs):
-            timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
-            made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
-    context.progress("transitions: hard cut")
-    made["hard cut"] = []  # what a transition looks like that nobody made
-    for k, pair in enumerate(pairs):
-        first, second = context.generator.generate(pair, seconds=HALF / 30, seed=seed + k)
-        second = moved_to(second, place_of(first, first.num_frames - 1))
-        made["hard cut"].append(joined(first, second))
-    made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
-    rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
-    words = {"pairs": len(pairs), "HALF": HALF, "AROUND": AROUND, "actions": len(ACTIONS)}
-    return [Grid.of("transitions", rows, words)]
-
-
-def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
-    text = judge.embed_text(ACTIONS).numpy()
-    sizes = [accelerations(motion) for motion in motions]
-    change = np.concatenate([values[HALF - AROUND : HALF + AROUND] for values in sizes])
-    rest = [np.delete(each, slice(HALF - AROUND, HALF + AROUND)) for each in sizes]
-    cells = context.against(change, "near")
-    cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
-    for which, key in enumerate(("before", "after")):
-        hits = []
-        for motion, pair in zip(motions, context.pairs, strict=True):
-            seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
-            distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
-            hits.append((rank_of(distances, ACTIONS.index(pair[which])) < 1).mean())
-        cells[key] = bootstrap_mean(hits)
-    return GridRow(cells, len(motions), 1)
