@@ -60,13 +60,11 @@ MEASURES = ("count", "angle")  # how well they are kept tells nothing of the act
 FOLDS = 5  # of takes, to see what the discriminant makes of a take that it has not seen
 MIN_RECALL, MAX_FALSE = 0.8, 0.15  # of captured clips, for kinematics to be heard
 WITNESS_CLIPS = 20  # of an action
-SHOWN = frozenset(
-    (
-        *("forward", "backward", "left", "right", "turn-left", "turn-right"),
-        *("left-hand", "right-hand", "both-hands"),
-        *("kick-left", "kick-right", "punch-left", "punch-right", "count", "angle"),
-    )
-)  # checks of which way, which side and how much; which action it is the judge says
+# Checks of which way, which side and how much; which action it is the judge says.
+SHOWN = {
+    "forward", "backward", "left", "right", "turn-left", "turn-right", "left-hand", "right-hand",
+    "both-hands", "kick-left", "kick-right", "punch-left", "punch-right", "count", "angle",
+}  # fmt: skip
 
 
 def descriptor(motion: Motion) -> np.ndarray:
@@ -128,10 +126,7 @@ class ActionJudge:
     @classmethod
     def fit(cls, features: np.ndarray, labels: Sequence[str]) -> "ActionJudge":
         """Of descriptors [N, F] with a label each; every class counts alike.
-
-        Raises:
-            ValueError: fewer than two classes, NaN or infinity.
-        """
+        Raises ValueError: fewer than two classes, NaN or infinity."""
         classes = tuple(sorted(set(labels)))
         if len(classes) < 2 or not np.isfinite(features).all():
             raise ValueError(f"{len(classes)} classes of finite features are too few to tell apart")
@@ -148,23 +143,13 @@ class ActionJudge:
         values, vectors = np.linalg.eigh(covariance)
         whiten = vectors / np.sqrt(values)
         _, _, directions = np.linalg.svd((centres - centres.mean(0)) @ whiten, full_matrices=False)
-        return cls(
-            classes,
-            mean,
-            scale,
-            weights,
-            -0.5 * (centres.T * weights).sum(0),
-            whiten @ directions[: len(classes) - 1].T,
-        )
-
-    def scores(self, features: np.ndarray) -> np.ndarray:
-        """Log odds [N, C] of each class, up to a constant a row."""
-        scaled = (features - self.mean) / self.scale
-        return np.asarray(scaled @ self.weights + self.bias)
+        axes, bias = whiten @ directions[: len(classes) - 1].T, -0.5 * (centres.T * weights).sum(0)
+        return cls(classes, mean, scale, weights, bias, axes)
 
     def __call__(self, features: np.ndarray) -> list[str]:
         """The likeliest class of each of N descriptors."""
-        return [self.classes[index] for index in self.scores(features).argmax(1)]
+        scores = (features - self.mean) / self.scale @ self.weights + self.bias  # N C, log odds
+        return [self.classes[index] for index in scores.argmax(1)]
 
     def embed(self, features: np.ndarray) -> np.ndarray:
         """Coordinates [N, C - 1] in which classes lie apart, in deviations within a class."""
@@ -190,10 +175,7 @@ class ActionRecognizer:
         cls, records: Sequence[ClipRecord], motions: Sequence[Motion], features: np.ndarray
     ) -> "ActionRecognizer":
         """Of N clips with a tag each, their motions and descriptors [N, F].
-
-        Raises:
-            ValueError: fewer than two actions, NaN or infinity.
-        """
+        Raises ValueError: fewer than two actions, NaN or infinity."""
         tags, takes = [r.tag for r in records], [r.take for r in records]
         judge = ActionJudge.fit(features, tags)
         seen = np.array(_of_unseen_takes(features, tags, takes), object)
@@ -311,10 +293,7 @@ def recognizer_of(
     data: PreparedData, seed: int = 0, progress: Progress = lambda text: None
 ) -> ActionRecognizer:
     """A judge fitted on the training clips.
-
-    Raises:
-        UserError: fewer than two actions to tell apart.
-    """
+    Raises UserError: fewer than two actions to tell apart."""
     clips = spread_over_groups(judged_by(_captioned(data)), JUDGING_CLIPS, seed)
     progress(f"a judge of {len(clips)} clips")
     clips, seen = examples(data, clips, round(SECONDS * 30))
@@ -346,9 +325,15 @@ def action_reliability(
     asked = []
     for _, rows in sorted(rows_of_each(record.tag for record in train).items()):
         own = spread_over_groups([train[row] for row in rows], tries, seed)
-        several = enumerate(islice(cycle(own), tries))
-        asked += [(record, _caption(data, record, seed + number)) for number, record in several]
-    right = _kept_before(kept, len(asked))
+        for draw, record in enumerate(islice(cycle(own), tries), start=seed):
+            captions = {code: texts for code, texts in data.captions(record).items() if texts}
+            code = sorted(captions)[draw % len(captions)]  # the languages in turn
+            asked.append((record, choose_caption(captions[code], f"{record.id}{draw}", draw)))
+    right: list[bool] = []
+    with suppress(OSError, UserError, ValueError):  # what is kept may be of no use
+        known = load_json(kept) if kept is not None else []
+        if isinstance(known, list) and len(known) <= len(asked):
+            right = known if all(isinstance(one, bool) for one in known) else []
     for at in range(len(right), len(asked), SENTENCES):
         progress(f"{at} of {len(asked)} sentences")
         part = asked[at : at + SENTENCES]
@@ -366,30 +351,13 @@ def action_reliability(
     return {tag: (sum(done) + 1) / (len(done) + 2) for tag, done in shares.items()}
 
 
-def _kept_before(kept: Path | None, most: int) -> list[bool]:
-    """What a file of `action_reliability` holds; nothing where it is of no use."""
-    with suppress(OSError, UserError, ValueError):
-        right = load_json(kept) if kept is not None else []
-        if isinstance(right, list) and len(right) <= most:
-            return right if all(isinstance(one, bool) for one in right) else []
-    return []
-
-
 def _captioned(data: PreparedData) -> list[ClipRecord]:
     """Training clips of a labelled action, long enough, with words."""
     train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
     return [r for r in train if any(data.captions(r).values())]
 
 
-def _caption(data: PreparedData, record: ClipRecord, seed: int) -> str:
-    """One of the captions of a clip, in a language that goes round with the seed."""
-    captions = {code: texts for code, texts in data.captions(record).items() if texts}
-    code = sorted(captions)[seed % len(captions)]
-    return choose_caption(captions[code], f"{record.id}{seed}", seed)
-
-
 # ---------------------------------------------------------------- what an instruction asks
-
 
 ANGLE_WITHIN = 20.0  # degrees
 
@@ -462,10 +430,7 @@ class ControlTask:
 
     def passes(self, motion: Measurements, other: Measurements | None = None) -> bool:
         """Whether the motion (against `other` where the task compares two) does it.
-
-        Raises:
-            ValueError: the task compares two motions and `other` is missing.
-        """
+        Raises ValueError: the task compares two motions and `other` is missing."""
         if self.compare is None:
             return self.check(motion)
         if other is None:
@@ -473,27 +438,19 @@ class ControlTask:
         return self.compare(motion, other)
 
 
-def _hand(side: str) -> tuple[dict[str, str], ...]:
-    return {"action": "wave", "side": side}, {"action": "raise", "side": side}
-
-
-def _turn(side: str) -> tuple[dict[str, str], ...]:
-    return (
-        {"action": "walk", "direction": "forward", "turn": side},
-        {"action": "turn", "direction": side, "angle": "90"},
-    )
-
-
 _WALK = {"action": "walk", "direction": "forward"}
 _RUN = {"action": "run", "direction": "forward"}
-
+_HAND = {side: ({"action": "wave", "side": side}, {"action": "raise", "side": side})
+         for side in ("left", "right")}  # fmt: skip
+_TURN = {side: ({**_WALK, "turn": side}, {"action": "turn", "direction": side, "angle": "90"})
+         for side in ("left", "right")}  # fmt: skip
 CONTROL_TASKS: tuple[ControlTask, ...] = (
     ControlTask("forward", (_WALK,), CHECKS["forward"]),
-    ControlTask("backward", ({"action": "walk", "direction": "backward"},), CHECKS["backward"]),
-    ControlTask("left hand", _hand("left"), CHECKS["left-hand"]),
-    ControlTask("right hand", _hand("right"), CHECKS["right-hand"]),
+    ControlTask("backward", ({**_WALK, "direction": "backward"},), CHECKS["backward"]),
+    ControlTask("left hand", _HAND["left"], CHECKS["left-hand"]),
+    ControlTask("right hand", _HAND["right"], CHECKS["right-hand"]),
     ControlTask("run faster than walk", (_RUN,), CHECKS["run"], versus=_WALK, compare=faster),
-    ControlTask("turn left", _turn("left"), CHECKS["turn-left"]),
-    ControlTask("turn right", _turn("right"), CHECKS["turn-right"]),
+    ControlTask("turn left", _TURN["left"], CHECKS["turn-left"]),
+    ControlTask("turn right", _TURN["right"], CHECKS["turn-right"]),
 )
 """The controllability that shipped weights are held to."""

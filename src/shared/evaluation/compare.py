@@ -18,13 +18,6 @@ from .stats import FEW, MIN_PAIRS, Difference, paired_bootstrap
 from .tables import Cell, Column, Grid, GridRow, grids, report_data
 
 FREE = ("model", "sampling", "statistics", "environment")  # what a comparison may be about
-NOTE = (
-    "b - a, ± half a 95% interval of a paired bootstrap (10,000 resamples): over prompts, each the"
-    " mean of its replications, where a figure belongs to a single motion; over replications with"
-    " the same seeds where it belongs to a whole sample. p is two-sided. better: the interval"
-    f" excludes 0 on the good side; fewer than {FEW} pairs get no verdict. Every column is one"
-    " test: of twenty that differ in nothing, one seems to."
-)
 
 
 @dataclass(frozen=True)
@@ -45,11 +38,8 @@ class Side:
 
 def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
     """Every figure that both have, as a report: one table a family.
-
-    Raises:
-        UserError: a folder holds no report, the reports measured different things (data, judge,
-            settings, metrics), a row is missing, or the rows were asked different things.
-    """
+    Raises UserError: a folder holds no report, the reports measured different things (data, judge,
+    settings, metrics), a row is missing, or the rows were asked different things."""
     first, second = read_json(a.folder / manifest.MANIFEST), read_json(b.folder / manifest.MANIFEST)
     found = manifest.differences(first, second)
     differs = [name for name in found if name.split(".")[0] not in FREE]
@@ -59,11 +49,8 @@ def compare(a: Side, b: Side, *, seed: int = 0) -> dict[str, Any]:
             " beside each other; evaluate both with the same data, judge and settings"
         )
     ours, theirs = (read_json(side.folder / "report.json") for side in (a, b))
-    tables = [
-        table
-        for grid in grids(ours)
-        if grid.plot and (table := _difference(grid, a, b, seed)) is not None
-    ]
+    found_tables = (_difference(grid, a, b, seed) for grid in grids(ours) if grid.plot)
+    tables = [table for table in found_tables if table is not None]
     if not tables:
         raise UserError(
             f"{a.folder} has no row {a.row!r}, or {b.folder} has no row {b.row!r}"
@@ -105,11 +92,8 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
             "pairs": found.count,
         }
         rows[column.heading] = GridRow(cells)
-    columns = (
-        Column("a", "a"), Column("b", "b"), Column("difference", "b - a", 4), Column("p", "p", 4),
-        Column("better", "better"), Column("pairs", "pairs", 0),
-    )  # fmt: skip
-    return Grid(grid.name, grid.title, columns, rows, NOTE, "figure") if rows else None
+    words = {"name": grid.name, "title": grid.title}
+    return Grid.of("comparison", rows, {"FEW": FEW}, **words) if rows else None
 
 
 def _pairs(a: Sequence[Part], b: Sequence[Part], key: str) -> tuple[np.ndarray, np.ndarray] | None:

@@ -20,7 +20,7 @@ from ..errors import UserError
 from . import manifest
 from .manifest import Part, Parts, Sources
 from .stats import Estimate, bootstrap_mean, replicated, share_of
-from .tables import Column, Grid, GridRow, Report, plain, report_data
+from .tables import Column, Grid, GridRow, Report, described, plain, report_data
 
 Progress = Callable[[str], None]
 Value = float | np.ndarray
@@ -39,14 +39,15 @@ class AnySample(Protocol):
 
 Sample = TypeVar("Sample", bound=AnySample)
 Judged = TypeVar("Judged", bound=AnySample)
+Figures = Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
 
 
 @dataclass(frozen=True)
 class MetricFamily(Generic[Judged]):
     """The plug-in point: figures that belong together and share a definition.
 
-    To add one: name it among the families of a suite. Tables, intervals, comparison, the reports
-    and their legend follow by themselves.
+    To add one: describe it in tables.toml and name it among the families of a suite. Tables,
+    intervals, comparison, the reports and their legend follow by themselves.
 
     Attributes:
         name: of the family's table.
@@ -69,9 +70,15 @@ class MetricFamily(Generic[Judged]):
     name: str
     columns: tuple[Column, ...]
     definition: str
-    figures: Callable[[Judged, Judged, int], Mapping[str, Value] | Sequence[Mapping[str, float]]]
+    figures: Figures[Judged]
     distance: bool = False
     least: int = 0
+
+    @classmethod
+    def of(cls, name: str, figures: Figures[Judged], *, warning: str = "", **rest: Any) -> Self:
+        """The family whose columns and definition tables.toml holds; `warning` ends the latter."""
+        words = described(name, warning=warning)
+        return cls(name, words["columns"], words["note"], figures, **rest)
 
     def compute(self, sample: Judged, reference: Judged, *, seed: int) -> Mapping[str, Value]:
         """What `figures` finds, by column key."""
@@ -137,10 +144,7 @@ class Suite:
 
 def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None) -> Report:
     """The whole report as plain data; what `parts` holds is not measured again.
-
-    Raises:
-        UserError: data that cannot be used, or the folder of `parts` holds another report.
-    """
+    Raises UserError: data that cannot be used, or the folder of `parts` holds another report."""
     if parts.folder is not None and suite.sources is not None:
         families = [family for bench in suite.benches[:1] for family in bench.families]
         metrics = {family.name: [column.key for column in family.columns] for family in families}
@@ -155,31 +159,27 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
         except UserError as error:
             if not bench.optional:
                 raise
-            row = GridRow({"why": str(error)})
-            title = f"{bench.name}: not measured"
-            tables.append(Grid(bench.name, title, (Column("why", "why"),), {bench.name: row}))
+            rows, title = {bench.name: GridRow({"why": str(error)})}, f"{bench.name}: not measured"
+            tables.append(Grid(bench.name, title, (Column("why", "why"),), rows))
             continue
         tables += [*grids, *([bench.summary(grids)] if bench.summary is not None else [])]
         samples += parts.once(part_name(bench.name, bench.main, 0), dict).get("samples", [])
     for name, make in suite.tables.items():
         part = parts.once(name, partial(_as_part, make))
         tables += [Grid.from_dict(grid) for grid in part["grids"]]
-    pictures: list[dict[str, Any]] = []
+    pictures: Part = {"pictures": []}
     if suite.pictures is not None:
         draw, folder = suite.pictures, parts.folder
         pictures = parts.once(
             "pictures", lambda: {"pictures": draw(folder) if folder is not None else []}
-        )["pictures"]
+        )
     facts = {} if suite.facts is None else parts.once("facts", suite.facts)
-    about = {**suite.about, **facts}
-    return report_data(suite.branch, about, suite.settings, tables, samples, pictures)
+    about, drawn = {**suite.about, **facts}, pictures["pictures"]
+    return report_data(suite.branch, about, suite.settings, tables, samples, drawn)
 
 
 def _as_part(make: Callable[[], list[Grid]]) -> Part:
     return {"grids": [grid.as_dict() for grid in make()]}
-
-
-# ---------------------------------------------------------------- measuring
 
 
 def part_name(bench: str, row: str, replication: int) -> str:
@@ -217,8 +217,11 @@ def _measure(
     figures: dict[str, float] = {}
     values: dict[str, np.ndarray] = {}
     for family in bench.families:
-        apart = row.real and family.distance
-        own, other = halves(reference, draw) if apart else (sample, reference)
+        own, other = sample, reference
+        if row.real and family.distance:  # how far real motions are from real motions
+            order = np.random.default_rng(draw).permutation(len(reference)).tolist()
+            middle = len(order) // 2
+            own, other = reference.rows(order[:middle]), reference.rows(order[middle:])
         found = family.compute(own, other, seed=draw)
         unknown = found.keys() - {column.key for column in family.columns}
         assert not unknown, f"{family.name} returns {unknown}, no column of it"
@@ -228,28 +231,17 @@ def _measure(
             else:
                 figures[key] = float(value)
     part: Part = {"num": len(sample), "asked": manifest.hash_names(sample.asked)}
-    part["figures"] = _short(figures)
+    part["figures"] = {key: _short(figure, DIGITS) for key, figure in figures.items()}
     if not (row.fixed and replication):
-        part["values"] = {key: _short(list(map(float, each))) for key, each in values.items()}
+        part["values"] = {key: [_short(x, DIGITS) for x in each] for key, each in values.items()}
     if row.name == bench.main and not replication and bench.write is not None:
         part["samples"] = [] if folder is None else _keep_worst(bench, sample, values, folder)
     return part
 
 
-def halves(sample: Sample, seed: int) -> tuple[Sample, Sample]:
-    """Two disjoint random halves: how far real motions are from real motions."""
-    order = np.random.default_rng(seed).permutation(len(sample)).tolist()
-    middle = len(order) // 2
-    return sample.rows(order[:middle]), sample.rows(order[middle:])
-
-
-def _short(value: Any) -> Any:
-    """Figures rounded to `DIGITS`, for JSON."""
-    if isinstance(value, float):
-        return plain(float(f"{value:.{DIGITS}g}"))
-    if isinstance(value, list):
-        return [_short(item) for item in value]
-    return {key: _short(item) for key, item in value.items()}
+def _short(value: float, digits: int) -> Any:
+    """A figure rounded, for JSON."""
+    return plain(float(f"{float(value):.{digits}g}"))
 
 
 def _keep_worst(
@@ -263,7 +255,7 @@ def _keep_worst(
     for rank, row in enumerate(order[: bench.worst], start=1):
         name = f"{SAMPLES}/{bench.name}-{rank:02d}.npz"
         told = bench.write(sample, row, folder / name)
-        figures = {k: plain(float(f"{values[k][row]:.6g}")) for k in columns if k in values}
+        figures = {key: _short(values[key][row], 6) for key in columns if key in values}
         place = {"rank": rank, "of": len(order), "bench": bench.name}
         kept.append({"file": name, "figures": figures, **told, **place})
     return kept
@@ -279,13 +271,9 @@ def worst_first(
     """
     totals = np.zeros(num)
     for family in families:
-        ranks = [
-            _badness(values[column.key], column.better == "high")
-            for column in family.columns
-            if column.key in values and column.better != "real"
-        ]
-        if ranks:
-            totals += np.mean(ranks, axis=0)
+        good = [c for c in family.columns if c.key in values and c.better != "real"]
+        if good:
+            totals += np.mean([_badness(values[c.key], c.better == "high") for c in good], axis=0)
     return [int(row) for row in np.argsort(-totals, kind="stable")]
 
 
@@ -297,9 +285,6 @@ def _badness(values: np.ndarray, high_is_good: bool) -> np.ndarray:
         signed = -values[known] if high_is_good else values[known]
         result[known] = (rankdata(signed) - 1) / (len(known) - 1)
     return result
-
-
-# ---------------------------------------------------------------- tables
 
 
 def family_grid(

@@ -30,14 +30,8 @@ from ..config_schema import Config
 from ..errors import UserError
 from ..io.files import atomic_write, load_json, sha256_file, write_json
 from ..metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ..model.checkpoint import (
-    PRETRAINED,
-    WeightsInfo,
-    check_weights,
-    from_hub,
-    of_another_version,
-    weights_info,
-)
+from ..model import checkpoint
+from ..model.checkpoint import PRETRAINED, WeightsInfo, check_weights, weights_info
 from ..motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
 from ..motion.motion import Motion
 from ..motion.rotations import forward_kinematics, rotation_6d_to_matrix
@@ -219,31 +213,21 @@ class Evaluator(nn.Module):
         """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights."""
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        state = {
-            key: value.detach().cpu().half().contiguous()
-            for key, value in self.state_dict().items()
-        }
+        state = {k: v.detach().cpu().half().contiguous() for k, v in self.state_dict().items()}
         with atomic_write(folder / WEIGHTS) as path:
             save_file(state, path)
         vouched = {"weights": weights_info(folder / WEIGHTS).model_dump()}
         config = {"kind": "evaluator", "evaluator": self.config.model_dump()}
-        content = {**config, **(notes or {}), **vouched}
-        write_json(folder / "config.json", content)
+        write_json(folder / "config.json", {**config, **(notes or {}), **vouched})
 
     @classmethod
     def from_pretrained(cls, name: Path | str, device: str | torch.device = "cpu") -> Self:
         """Load a shipped evaluator by name or any folder that `save_pretrained` wrote.
-
-        Raises:
-            UserError: no such folder, another kind of model, or weights that do not fit.
-        """
+        Raises UserError: no such folder, another kind of model, or weights that do not fit."""
         folder = evaluator_folder(name)
         if not (folder / "config.json").is_file():
-            known = sorted(
-                path.parent.name
-                for path in PRETRAINED.glob("*/config.json")
-                if load_json(path).get("kind") == "evaluator"
-            )
+            cards = sorted(PRETRAINED.glob("*/config.json"))
+            known = [c.parent.name for c in cards if load_json(c).get("kind") == "evaluator"]
             raise UserError(
                 f"no evaluator {str(name)!r}; there are: {', '.join(known) or 'none'}, or a folder"
                 " from `motion-tools train evaluator`"
@@ -266,7 +250,7 @@ class Evaluator(nn.Module):
         try:
             config = EvaluatorConfig.model_validate(content.get("evaluator"))
         except ValidationError as error:
-            raise of_another_version(folder / "config.json", error) from error
+            raise checkpoint.of_another_version(folder / "config.json", error) from error
         try:
             model = cls(config)
             model.load_state_dict({key: value.float() for key, value in weights.items()})
@@ -282,23 +266,11 @@ class Evaluator(nn.Module):
 
 def evaluator_folder(name: Path | str) -> Path:
     """That of a shipped evaluator, the one named, or one from a hub."""
-    return Path(name) if Path(name).is_dir() else from_hub(name) or PRETRAINED / str(name)
+    folder = Path(name)
+    return folder if folder.is_dir() else checkpoint.from_hub(name) or PRETRAINED / str(name)
 
 
 # ---------------------------------------------------------------- what it sees of a motion
-
-
-def heading_positions(features: Tensor) -> Tensor:
-    """Joint positions [T, K, 3] in metres, relative to the pelvis, in the heading frame.
-
-    Args:
-        features: [T, K + 1, 6] raw motion features; row 0 holds no heading (ruling 19).
-    """
-    skeleton = canonical_skeleton()
-    local = rotation_6d_to_matrix(features[..., :NUM_JOINTS, :])
-    offsets = torch.as_tensor(skeleton.offsets, dtype=features.dtype, device=features.device)
-    origin = features.new_zeros(*features.shape[:-2], 3)
-    return forward_kinematics(local, origin, offsets, skeleton.parents)[0]
 
 
 def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
@@ -307,8 +279,7 @@ def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
     The kinematics of all clips run at once. Velocities are forward differences; the last frame
     repeats (ruling 6).
 
-    Raises:
-        ValueError: the root track is missing, or a shape is another.
+    Raises ValueError: the root track is missing, or a shape is another.
     """
     for clip in clips:
         if clip.ndim != 3 or clip.shape[1:] != (NUM_JOINTS + 1, 6):
@@ -316,17 +287,19 @@ def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
                 f"the evaluator reads [T, {NUM_JOINTS + 1}, 6] with a root track,"
                 f" not {tuple(clip.shape)}"
             )
-    joined = heading_positions(torch.cat(list(clips)))
-    positions = torch.split(joined, [len(clip) for clip in clips])
-    return [_assemble(clip, joints) for clip, joints in zip(clips, positions, strict=True)]
-
-
-def _assemble(features: Tensor, positions: Tensor) -> Tensor:
-    joints = positions[:, 1:].flatten(1)  # [T, 63]
-    velocities = torch.zeros_like(joints)
-    if len(joints) > 1:
-        velocities[:-1] = (joints[1:] - joints[:-1]) * FPS
-        velocities[-1] = velocities[-2]
-    root = features[:, NUM_JOINTS]
-    track = root[:, [FORWARD, LATERAL, YAW_RATE]]
-    return torch.cat([root[:, HEIGHT : HEIGHT + 1], joints, velocities, track], dim=-1)
+    # Row 0 holds no heading (ruling 19), so that positions are in the heading frame.
+    features, skeleton = torch.cat(list(clips)), canonical_skeleton()
+    local = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
+    offsets = torch.as_tensor(skeleton.offsets, dtype=features.dtype, device=features.device)
+    origin = features.new_zeros(len(features), 3)
+    joined = forward_kinematics(local, origin, offsets, skeleton.parents)[0][:, 1:].flatten(1)
+    found, lengths = [], [len(clip) for clip in clips]
+    for clip, joints in zip(clips, torch.split(joined, lengths), strict=True):
+        velocities = torch.zeros_like(joints)  # T 63
+        if len(joints) > 1:
+            velocities[:-1] = (joints[1:] - joints[:-1]) * FPS
+            velocities[-1] = velocities[-2]
+        root = clip[:, NUM_JOINTS]
+        track = root[:, [FORWARD, LATERAL, YAW_RATE]]
+        found.append(torch.cat([root[:, HEIGHT : HEIGHT + 1], joints, velocities, track], dim=-1))
+    return found

@@ -43,19 +43,19 @@ class Sources:
 
 
 def build(
-    branch: str,
-    sources: Sources,
-    settings: Mapping[str, Any],
-    metrics: Mapping[str, Sequence[str]],
+    branch: str, sources: Sources, settings: Mapping[str, Any], metrics: Mapping[str, Sequence[str]]
 ) -> dict[str, Any]:
     """Everything by name; `metrics`: the columns of each family."""
+    digest = hashlib.sha256()
+    for each in sources.statistics:
+        digest.update(np.ascontiguousarray(each.detach().cpu().numpy()).tobytes())
     return {
         "format-version": FORMAT_VERSION,
         "branch": branch,
         "model": dict(sources.model),
         "evaluator": dict(sources.evaluator),
         "data": dict(sources.data),
-        "statistics": hash_arrays(each.detach().cpu().numpy() for each in sources.statistics),
+        "statistics": digest.hexdigest(),
         "settings": {k: list(v) if isinstance(v, tuple) else v for k, v in settings.items()},
         "sampling": {key: value for key, value in sources.sampling.items() if value is not None},
         "metrics": {name: list(columns) for name, columns in metrics.items()},
@@ -99,14 +99,6 @@ def song_hashes(folder: Path | None) -> dict[str, str]:
     return {path.name: sha256_file(path) for path in files if path.is_file()}
 
 
-def hash_arrays(arrays: Iterable[np.ndarray]) -> str:
-    """SHA-256 of arrays' bytes, in order."""
-    digest = hashlib.sha256()
-    for array in arrays:
-        digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
-
-
 def hash_names(names: Iterable[str]) -> str:
     """SHA-256 of a list of names: the clips of a split, the prompts of a sample."""
     return hashlib.sha256("\n".join(names).encode()).hexdigest()
@@ -114,10 +106,7 @@ def hash_names(names: Iterable[str]) -> str:
 
 def claim(folder: Path, manifest: dict[str, Any]) -> None:
     """Take a folder for a report, or go on in it.
-
-    Raises:
-        UsageError: it holds a report of something else.
-    """
+    Raises UsageError: it holds a report of something else."""
     path = folder / MANIFEST
     if path.is_file():
         differs = differences(read_json(path), manifest)
@@ -145,8 +134,7 @@ def differences(a: Mapping[str, Any], b: Mapping[str, Any]) -> list[str]:
 class Parts:
     """Finished parts by name.
 
-    Args:
-        folder: of the report; None = they are kept in memory alone.
+    `folder`: of the report; None = they are kept in memory alone.
     """
 
     def __init__(self, folder: Path | None = None) -> None:
@@ -168,9 +156,8 @@ class Parts:
         return name in self.known or (path is not None and path.is_file())
 
     def _path(self, name: str) -> Path | None:
-        if self.folder is None:
-            return None
-        return self.folder / "parts" / (re.sub(r"[^\w.-]+", "-", name) + ".json")
+        file = re.sub(r"[^\w.-]+", "-", name) + ".json"
+        return None if self.folder is None else self.folder / "parts" / file
 
     def _read(self, name: str) -> Part | None:
         """A finished part whose files are still there."""
@@ -195,11 +182,7 @@ class Parts:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """An object of a report folder.
-
-    Raises:
-        UserError: missing, or not whole.
-    """
+    """An object of a report folder. Raises UserError: missing, or not whole."""
     try:
         return dict(load_json(path))
     except (OSError, ValueError, TypeError) as error:

@@ -37,21 +37,14 @@ OTHER_COLOUR = "#7a4fbf"
 
 
 def save_report(report: dict[str, Any], folder: Path) -> None:
-    """Write all three.
-
-    Raises:
-        UserError: the folder cannot be written.
-    """
+    """Write all three. Raises UserError: the folder cannot be written."""
     write_json(folder / REPORT, report)
     render(folder)
 
 
 def render(folder: Path) -> dict[str, Any]:
     """Make report.md and report.html again; returns the report.
-
-    Raises:
-        UserError: report.json, a sample or a picture is missing or damaged.
-    """
+    Raises UserError: report.json, a sample or a picture is missing or damaged."""
     report = read_json(folder / REPORT)
     try:
         page = html_page(report, folder)
@@ -68,17 +61,13 @@ def render(folder: Path) -> dict[str, Any]:
 
 
 def html_page(report: dict[str, Any], folder: Path) -> str:
-    """The whole page.
-
-    Args:
-        report: see `report_data`.
-        folder: of the report, where samples and pictures lie.
-
-    Raises:
-        UserError: a sample is missing or damaged.
-    """
+    """The whole page of a report whose samples and pictures lie in `folder`.
+    Raises UserError: a sample is missing or damaged."""
     tables = grids(report)
-    sections = [f'<section id="about">{_about(report)}</section>', *_worst(report, folder)]
+    facts = [fact.split(": ", 1) for fact in heading(report)]
+    items = "".join(f"<li><b>{escape(name)}</b> {escape(value)}</li>" for name, value in facts)
+    about = f'<ul class="facts">{items}</ul><p class="note">{escape(intervals_note(report))}</p>'
+    sections = [f'<section id="about">{about}</section>', *_worst(report, folder)]
     sections += [_table(index, grid) for index, grid in enumerate(tables)]
     if report["pictures"]:
         sections.append(_pictures(report["pictures"], folder))
@@ -96,19 +85,12 @@ def html_page(report: dict[str, Any], folder: Path) -> str:
     )
 
 
-def _about(report: dict[str, Any]) -> str:
-    facts = [fact.split(": ", 1) for fact in heading(report)]
-    items = "".join(f"<li><b>{escape(name)}</b> {escape(value)}</li>" for name, value in facts)
-    return f'<ul class="facts">{items}</ul><p class="note">{escape(intervals_note(report))}</p>'
-
-
 def _table(index: int, grid: Grid) -> str:
     table = printed(grid)
     head = "".join(f"<th>{escape(name)}</th>" for name in table.header)
-    body = ""
-    for row in table.rows:
-        texts = "".join(f"<td>{escape(text)}</td>" for text in row)
-        body += f'<tr class="{_css(row[0])}">{texts}</tr>'
+    texts = ["".join(f"<td>{escape(text)}</td>" for text in row) for row in table.rows]
+    rows = zip(table.rows, texts, strict=True)
+    body = "".join(f'<tr class="{_css(row[0])}">{cells}</tr>' for row, cells in rows)
     plots = "".join(column_plot(grid, column) for column in grid.columns if grid.plot)
     drawn = f'<details open><summary>plots</summary><div class="plots">{plots}</div></details>'
     return (
@@ -124,14 +106,9 @@ def _css(name: str) -> str:
 
 def _note(text: str) -> str:
     """Markdown's emphasis and code, nothing else."""
-    if not text:
-        return ""
     marked = re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text))
     marked = re.sub(r"\*([^*\s][^*]*)\*", r"<em>\1</em>", marked)
-    return f'<p class="note">{marked}</p>'
-
-
-# ---------------------------------------------------------------- motions and pictures
+    return f'<p class="note">{marked}</p>' if text else ""
 
 
 def _worst(report: dict[str, Any], folder: Path) -> Iterator[str]:
@@ -193,14 +170,14 @@ def _pictures(pictures: Sequence[dict[str, Any]], folder: Path) -> str:
 
 def column_plot(grid: Grid, column: Column) -> str:
     """One column; empty where fewer than two rows have numbers."""
-    spans = {
-        name: found
-        for name, row in grid.rows.items()
-        if (found := span(row.cells.get(column.key))) is not None
-    }
+    known = {name: span(row.cells.get(column.key)) for name, row in grid.rows.items()}
+    spans = {name: found for name, found in known.items() if found is not None}
     if len(spans) < 2:
         return ""
-    low, high = _ends(spans)
+    low, high = min(s[1] for s in spans.values()), max(s[2] for s in spans.values())
+    if 0 < low < high - low:  # 0 is on the axis where that costs less than half of its length
+        low = 0.0
+    low, high = (low, high) if high > low else (low - 0.5, low + 0.5)
     height = TOP + LINE * len(spans) + BOTTOM
 
     def at(value: float) -> str:
@@ -234,18 +211,10 @@ def column_plot(grid: Grid, column: Column) -> str:
 def span(cell: Cell) -> tuple[float, float, float] | None:
     """Value and interval of a cell; None where it holds no number."""
     if isinstance(cell, Mapping):
-        value, low, high = cell.get("value"), cell.get("low"), cell.get("high")
+        value, low, high = (cell.get(key) for key in ("value", "low", "high"))
         if value is None or low is None or high is None:
             return None
         return float(value), float(low), float(high)
     if isinstance(cell, (int, float)) and math.isfinite(cell):
         return float(cell), float(cell), float(cell)
     return None
-
-
-def _ends(spans: dict[str, tuple[float, float, float]]) -> tuple[float, float]:
-    """Ends of the axis: 0 is on it where that costs less than half of its length."""
-    low, high = min(s[1] for s in spans.values()), max(s[2] for s in spans.values())
-    if 0 < low < (high - low):
-        low = 0.0
-    return (low, high) if high > low else (low - 0.5, low + 0.5)

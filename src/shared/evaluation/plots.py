@@ -27,16 +27,9 @@ FORMATS = ("png", "pdf", "svg")
 
 
 def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: str = "") -> Path:
-    """Position, velocity, quaternion, phase, quaternion norm and jerk over seconds, as a picture.
-
-    Args:
-        trajectory: at least one frame.
-        path: .png, .pdf or .svg.
-        title: above the panels.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
+    """Position, velocity, quaternion, phase, quaternion norm and jerk over the seconds of at least
+    one frame, as .png, .pdf or .svg.
+    Raises UserError: matplotlib is missing, or the file cannot be written."""
     figure = new_figure(12, 10)
     panels = figure.subplots(3, 2, sharex=True).flat
     seconds = np.arange(trajectory.num_frames) / trajectory.fps
@@ -73,19 +66,13 @@ def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: st
 def plot_losses(
     history: Mapping[str, Sequence[float]], path: str | Path, *, title: str = ""
 ) -> Path:
-    """A curve for each loss on a logarithmic scale, as a picture.
-
-    TECH's six losses come first where the run has them.
-
-    Args:
-        history: `read_losses`' result: one list of equal length for each name, and `step`.
-        path: .png, .pdf or .svg.
-        title: above the panels.
-
-    Raises:
-        UserError: nothing to draw, matplotlib is missing, or the file cannot be written.
-    """
-    panels = _panels([name for name in history if name != "step"])
+    """A curve for each loss of `read_losses` on a logarithmic scale, as .png, .pdf or .svg; TECH's
+    six losses come first where the run has them.
+    Raises UserError: nothing to draw, matplotlib is missing, or the file cannot be written."""
+    panels: dict[str, list[str]] = {name: [] for name in LOSSES}
+    for name in (name for name in history if name != "step"):  # validation/loss beside loss
+        panels.setdefault(name.rpartition("/")[2], []).append(name)
+    panels = dict([(name, curves) for name, curves in panels.items() if curves][:MAX_PANELS])
     if not panels:
         raise UserError(
             f"cannot write {path}: the log holds no numbers to draw; name the log of a run"
@@ -96,7 +83,13 @@ def plot_losses(
     for index, (panel, names) in enumerate(panels.items()):
         axes = figure.add_subplot(rows, columns, index + 1)
         for name in names:
-            _plot_curve(axes, name, history)
+            values = np.asarray(history[name], dtype=np.float64)
+            known = np.isfinite(values)  # evaluations come more rarely than steps
+            steps = np.asarray(history["step"])[known]
+            label = name.rpartition("/")[0] or "training"
+            axes.plot(steps, values[known], marker="." if known.sum() < 50 else "", label=label)
+            if known.any():
+                axes.set_yscale("log" if values[known].min() > 0 else "symlog")
         axes.set_title(panel, loc="left")
         axes.set_xlabel("step")
         if len(names) > 1:
@@ -105,31 +98,9 @@ def plot_losses(
     return save_figure(figure, Path(path))
 
 
-def _panels(names: Sequence[str]) -> dict[str, list[str]]:
-    """At most `MAX_PANELS` panels and their curves: `loss` and `validation/loss` share one."""
-    grouped: dict[str, list[str]] = {}
-    for name in names:
-        grouped.setdefault(name.rpartition("/")[2], []).append(name)
-    order = [*(name for name in LOSSES if name in grouped), *grouped]
-    return {name: grouped[name] for name in list(dict.fromkeys(order))[:MAX_PANELS]}
-
-
-def _plot_curve(axes: "Axes", name: str, history: Mapping[str, Sequence[float]]) -> None:
-    values = np.asarray(history[name], dtype=np.float64)
-    known = np.isfinite(values)  # evaluations come more rarely than steps
-    steps = np.asarray(history["step"])[known]
-    label = name.rpartition("/")[0] or "training"
-    axes.plot(steps, values[known], marker="." if known.sum() < 50 else "", label=label)
-    if known.any():
-        axes.set_yscale("log" if values[known].min() > 0 else "symlog")
-
-
 def read_losses(path: str | Path) -> dict[str, list[float]]:
     """The numbers of a run's log.jsonl or training_log.json by name, NaN where a step has none.
-
-    Raises:
-        UserError: missing, or neither of them.
-    """
+    Raises UserError: missing, or neither of them."""
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
@@ -191,11 +162,7 @@ def _legend(axes: "Axes") -> None:
 
 
 def new_figure(width: float, height: float) -> "Figure":
-    """An empty figure of so many inches.
-
-    Raises:
-        UserError: matplotlib is missing.
-    """
+    """An empty figure of so many inches. Raises UserError: matplotlib is missing."""
     try:
         from matplotlib.figure import Figure
     except ImportError as error:
@@ -207,10 +174,7 @@ def new_figure(width: float, height: float) -> "Figure":
 
 def save_figure(figure: "Figure", path: Path) -> Path:
     """Write .png, .pdf or .svg, whole or not at all.
-
-    Raises:
-        UserError: the file cannot be written.
-    """
+    Raises UserError: the file cannot be written."""
     ending = path.suffix.removeprefix(".").lower()
     with atomic_write(path) as temporary:
         figure.savefig(temporary, format=ending or "png", dpi=100)

@@ -18,14 +18,8 @@ from torch import Tensor
 
 from ..data.prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..errors import UserError
-from ..motion.features import (
-    FORWARD,
-    LATERAL,
-    ROOT_ROW,
-    YAW_RATE,
-    decode_features,
-    encode_features,
-)
+from ..metrics.rhythm import strangers
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, decode_features, encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
 
@@ -35,6 +29,7 @@ if TYPE_CHECKING:
     from ..model.generation.motion_generator import TextToMotion
 
 Found = TypeVar("Found")
+Name = TypeVar("Name", str, int)
 Moved = TypeVar("Moved", MotionTrajectory, Motion)
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
@@ -182,13 +177,16 @@ class DanceSample(Generic[Moved]):
 
     def reordered(self, order: Sequence[int]) -> "DanceSample[Moved]":
         """The music stays, motions change places: what not listening gives."""
-        moved = [
-            replace(
-                self.dances[row], song=own.song, beats=own.beats, bars=own.bars, meter=own.meter
-            )
-            for own, row in zip(self.dances, order, strict=True)
-        ]
+        moved = []
+        for own, row in zip(self.dances, order, strict=True):
+            dance, song, bars = self.dances[row], own.song, own.bars
+            moved.append(replace(dance, song=song, beats=own.beats, bars=bars, meter=own.meter))
         return DanceSample(moved, self.source)
+
+    def on_other_songs(self, seed: int, replication: int) -> "DanceSample[Moved]":
+        """Each motion on the music of another: what not listening scores."""
+        rng = np.random.default_rng([seed, 4, replication])
+        return self.reordered(strangers(len(self), rng))
 
 
 Trajectories = DanceSample[MotionTrajectory]
@@ -222,12 +220,10 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
     a label combination is unseen if it is not among `trained_groups`.
 
     Args:
-        data: prepared folder, or "synthetic".
-        cache: where synthetic clips are kept.
+        data: prepared folder, or "synthetic", of which `cache` keeps the clips.
         trained_groups: label combinations that the models were trained on.
 
-    Raises:
-        UserError: no such folder, or it is damaged.
+    Raises UserError: no such folder, or it is damaged.
     """
     if data != SYNTHETIC:
         prepared = PreparedData.open(data)
@@ -253,9 +249,9 @@ def choose_caption(captions: Sequence[str], key: str, seed: int) -> str:
     return captions[int(rng.integers(len(captions)))]
 
 
-def rows_of_each(names: Iterable[str]) -> dict[str, list[int]]:
+def rows_of_each(names: Iterable[Name]) -> dict[Name, list[int]]:
     """The rows of each name, ascending, names as they first come."""
-    rows: dict[str, list[int]] = {}
+    rows: dict[Name, list[int]] = {}
     for row, name in enumerate(names):
         rows.setdefault(name, []).append(row)
     return rows
@@ -268,9 +264,9 @@ def spread_over_groups(records: Sequence[ClipRecord], num: int, seed: int) -> li
     otherwise decide every figure.
     """
     rng = np.random.default_rng(seed)
-    queues: dict[str, list[ClipRecord]] = {}
-    for row in rng.permutation(len(records)):
-        queues.setdefault(records[row].group, []).append(records[row])
+    mixed = [records[row] for row in rng.permutation(len(records))]
+    groups = rows_of_each(record.group for record in mixed)
+    queues = {group: [mixed[row] for row in rows] for group, rows in groups.items()}
     chosen: list[ClipRecord] = []
     while queues and len(chosen) < num:
         for group in rng.permutation(sorted(queues)):
@@ -294,14 +290,10 @@ def real_clips(
 
     Of longer clips the first `max_frames` count.
 
-    Raises:
-        UserError: there is no such clip.
+    Raises UserError: there is no such clip.
     """
-    usable = [
-        record
-        for record in records
-        if record.num_frames >= min_frames and data.captions(record).get(language)
-    ]
+    long = (record for record in records if record.num_frames >= min_frames)
+    usable = [record for record in long if data.captions(record).get(language)]
     if not usable:
         raise UserError(
             f"no clip of {min_frames} frames with a {language!r} caption to evaluate"
@@ -309,10 +301,8 @@ def real_clips(
         )
     chosen = spread_over_groups(usable, num, seed)
     return Clips(
-        motions=[decode_features(data.features(record)[:max_frames]) for record in chosen],
-        captions=[
-            choose_caption(data.captions(record)[language], record.id, seed) for record in chosen
-        ],
+        motions=[decode_features(data.features(r)[:max_frames]) for r in chosen],
+        captions=[choose_caption(data.captions(r)[language], r.id, seed) for r in chosen],
         groups=[record.group for record in chosen],
         tags=[record.tag for record in chosen],
         labels=[record.labels for record in chosen],
@@ -336,12 +326,12 @@ def frozen_pose(motion: Motion) -> Motion:
 
 def held_still(motion: Motion) -> Motion:
     """The first frame for all frames."""
-    frames = motion.num_frames
+    still, frames = motion.frames(0, 1), motion.num_frames
     return replace(
         motion,
-        quaternions=np.repeat(motion.quaternions[:1], frames, axis=0),
-        root_position=np.repeat(motion.root_position[:1], frames, axis=0),
-        contacts=np.repeat(motion.contacts[:1], frames, axis=0),
+        quaternions=np.repeat(still.quaternions, frames, axis=0),
+        root_position=np.repeat(still.root_position, frames, axis=0),
+        contacts=np.repeat(still.contacts, frames, axis=0),
     )
 
 

@@ -50,13 +50,11 @@ def replicated(values: Sequence[float]) -> Estimate:
 
 def bootstrap_mean(values: Sequence[float] | np.ndarray) -> Estimate:
     """Mean with its percentile bootstrap interval (Efron 1979); NaN entries are left out."""
-    data = np.asarray(values, dtype=np.float64)
-    data = data[~np.isnan(data)]
+    data = _known(values)
     if not len(data):
         return NOTHING
-    means = _resampled_means(data, 0, RESAMPLES)
-    low, high = np.percentile(means, [2.5, 97.5])
-    return Estimate(float(data.mean()), float(low), float(high), len(data))
+    low, high = np.percentile(_resampled_means(data, 0, RESAMPLES), [2.5, 97.5]).tolist()
+    return Estimate(float(data.mean()), low, high, len(data))
 
 
 def bootstrap_columns(rows: Sequence[Mapping[str, float]]) -> dict[str, Estimate]:
@@ -77,8 +75,7 @@ def success_rate(successes: int, trials: int) -> Estimate:
 
 def share_of(answers: Sequence[bool] | Sequence[float] | np.ndarray) -> Estimate:
     """`success_rate` of yes or no (1 or 0) each; NaN entries are left out."""
-    known = np.asarray(answers, dtype=np.float64)
-    known = known[~np.isnan(known)]
+    known = _known(answers)
     return success_rate(int(known.sum()), len(known))
 
 
@@ -91,28 +88,28 @@ def paired_bootstrap(
 ) -> Difference:
     """Mean of b - a over pairs with its percentile interval (Efron & Tibshirani 1993, §13.3, §16).
 
-    Pairs are drawn with replacement, so that what makes a prompt hard for both counts for neither.
-    A pair with a NaN is left out.
+    Entries i of a and b [N] are a pair. `num` times (B) pairs are drawn with replacement, so that
+    what makes a prompt hard for both counts for neither. A pair with a NaN is left out.
 
-    Args:
-        a, b: [N], entry i of each belongs together.
-        num: resamples B.
-
-    Raises:
-        ValueError: different lengths, or fewer than two pairs.
+    Raises ValueError: different lengths, or fewer than two pairs.
     """
     left, right = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     if left.shape != right.shape or left.ndim != 1:
         raise ValueError(f"pairs must be aligned, got {left.shape} and {right.shape}")
-    difference = right - left
-    difference = difference[~np.isnan(difference)]
+    difference = _known(right - left)
     if len(difference) < MIN_PAIRS:
         raise ValueError(f"{len(difference)} pairs are too few for an interval")
     means = _resampled_means(difference, seed, num)
-    low, high = np.percentile(means, [2.5, 97.5])
+    low, high = np.percentile(means, [2.5, 97.5]).tolist()
     beyond = min((means <= 0).sum(), (means >= 0).sum())
     p = min(1.0, 2 * (1 + int(beyond)) / (1 + num))
-    return Difference(float(difference.mean()), float(low), float(high), len(difference), p)
+    return Difference(float(difference.mean()), low, high, len(difference), p)
+
+
+def _known(values: Sequence[float] | np.ndarray) -> np.ndarray:
+    """Those [N] that are not NaN."""
+    data = np.asarray(values, dtype=np.float64)
+    return np.asarray(data[~np.isnan(data)])
 
 
 def _resampled_means(values: np.ndarray, seed: int, num: int) -> np.ndarray:

@@ -6,8 +6,10 @@ the metrics behind it.
 
 import math
 import re
+import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from .stats import Estimate
@@ -15,6 +17,7 @@ from .stats import Estimate
 if TYPE_CHECKING:
     from rich.console import Console
 
+WORDS = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))
 FORMAT_VERSION = 1
 Better = Literal["high", "low", "real"]  # real: the nearer to the real row, the better
 Cell = Estimate | Mapping[str, Any] | float | str | None  # a mapping: an `Estimate` of report.json
@@ -32,6 +35,13 @@ class Column:
     better: Better = "real"
     # yes or no a motion (1 or 0): its interval is Wilson's, which has a width at 0 of N
     share: bool = False
+
+
+def described(kind: str, **values: object) -> dict[str, Any]:
+    """Columns, title, head and note of a kind of table in tables.toml, `values` in their braces."""
+    texts = {key: text for key, text in WORDS[kind].items() if isinstance(text, str)}
+    words = {key: " ".join(text.split()).format(**values) for key, text in texts.items()}
+    return {"columns": tuple(Column(*each) for each in WORDS[kind].get("columns", ())), **words}
 
 
 @dataclass(frozen=True)
@@ -57,6 +67,17 @@ class Grid:
     note: str = ""  # under the table, Markdown
     head: str = "row"  # over the names of the rows
     plot: bool = False  # whether the columns are drawn in the HTML report
+
+    @classmethod
+    def of(
+        cls,
+        kind: str,
+        rows: Mapping[str, GridRow],
+        values: Mapping[str, object] | None = None,
+        **fields: Any,
+    ) -> "Grid":
+        """Rows under what tables.toml says of their kind; `fields` take its place."""
+        return cls(rows=rows, **{"name": kind, **described(kind, **(values or {})), **fields})
 
     def as_dict(self) -> dict[str, Any]:
         """Plain data for report.json; rows keep their order."""
@@ -107,12 +128,9 @@ def report_data(
     """A whole report as plain data: what report.json holds.
 
     Args:
-        branch: text or audio.
-        about: what was measured with what.
-        settings: amounts and seeds.
-        samples: motions to be looked at, see `Keeper`.
+        about, settings: what was measured with what; amounts and seeds.
+        samples: motions to be looked at: what a bench's `write` says of each, rank and figures.
         pictures: `file` in the report's folder and `title` of each.
-        title: over the pages; the model's name.
         found: more of it for programs; `notes` are lines under `about`.
     """
     return {
@@ -181,17 +199,14 @@ def printed(grid: Grid) -> Table:
     header = [grid.head, *(column.heading for column in grid.columns)]
     rows = [
         [name, *(cell_text(row.cells.get(column.key), column) for column in grid.columns)]
-        + ([counts(row)] if counted else [])
         for name, row in grid.rows.items()
     ]
-    return Table(grid.title, [*header, "N × runs"] if counted else header, rows, grid.note)
-
-
-def counts(row: GridRow) -> str:
-    """Motions times replications."""
-    if row.num is None:
-        return "–"
-    return str(row.num) if row.replications is None else f"{row.num} × {row.replications}"
+    if counted:
+        header.append("N × runs")
+        for cells, row in zip(rows, grid.rows.values(), strict=True):
+            both = (str(number) for number in (row.num, row.replications) if number is not None)
+            cells.append(" × ".join(both) if row.num is not None else "–")
+    return Table(grid.title, header, rows, grid.note)
 
 
 def heading(report: Report) -> list[str]:
@@ -231,14 +246,11 @@ def markdown(report: Report) -> str:
 
 def table_lines(table: Table) -> list[str]:
     """A table in Markdown."""
-    lines = [f"## {_inert(table.title)}", "", _line(table.header), "|" + "---|" * len(table.header)]
-    lines += [_line(row) for row in table.rows]
-    return [*lines, "", table.note, ""] if table.note else [*lines, ""]
-
-
-def _line(cells: Sequence[str]) -> str:
-    """A row in Markdown."""
-    return "| " + " | ".join(map(_inert, cells)) + " |"
+    head, *body = (
+        "| " + " | ".join(map(_inert, row)) + " |" for row in (table.header, *table.rows)
+    )
+    lines = [f"## {_inert(table.title)}", "", head, "|" + "---|" * len(table.header), *body, ""]
+    return [*lines, table.note, ""] if table.note else lines
 
 
 def _inert(text: str) -> str:

@@ -106,11 +106,8 @@ def group_frechet(
     """
     project = Projection.fit(real, min(GROUP_AXES, real.shape[1]))
     made, true = np.asarray(generated_labels), np.asarray(real_labels)
-    names = [
-        name
-        for name in sorted(set(generated_labels) & set(real_labels))
-        if min((made == name).sum(), (true == name).sum()) >= GROUP_SIZE
-    ]
+    shared = sorted(set(generated_labels) & set(real_labels))
+    names = [n for n in shared if min((made == n).sum(), (true == n).sum()) >= GROUP_SIZE]
     if len(names) < 2:
         return None
     a = {name: _moments(project(generated[made == name])) for name in names}
@@ -130,8 +127,7 @@ def diversity(embeddings: np.ndarray, *, seed: int = 0) -> float:
 
     With fewer than 600 rows as many disjoint pairs as there are. Close to real is best.
 
-    Raises:
-        ValueError: fewer than two rows.
+    Raises ValueError: fewer than two rows.
     """
     pairs = min(300, len(embeddings) // 2)
     if pairs < 1:
@@ -148,8 +144,7 @@ def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[floa
     the draw. Mean distance of motions of one prompt, NaN where no prompt comes twice, and how many
     prompts do.
 
-    Raises:
-        ValueError: lengths that differ, NaN or infinity.
+    Raises ValueError: lengths that differ, NaN or infinity.
     """
     if len(embeddings) != len(prompts):
         raise ValueError(f"{len(embeddings)} embeddings and {len(prompts)} prompts are not aligned")

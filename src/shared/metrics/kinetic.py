@@ -23,12 +23,7 @@ from scipy.spatial.distance import pdist
 
 from ..motion.motion import Motion
 from ..motion.rotations import angular_velocity
-from ..motion.skeleton import (
-    JOINT_INDEX,
-    JOINT_NAMES,
-    REST_PELVIS_HEIGHT,
-    canonical_skeleton,
-)
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..motion.trajectory import MotionTrajectory
 from .frechet import Projection, frechet_distance
 
@@ -70,16 +65,11 @@ def _checked(points: Array) -> Array:
 def kinetic_features(points: Array, fps: float) -> Array:
     """Mean squared horizontal and vertical speed and mean acceleration of each joint.
 
-    Args:
-        points: [T, K, 3] metres in the world, y up.
-        fps: frames a second.
+    Of points [T, K, 3] in metres in the world, y up: [K, 3] in m²/s², m²/s², m/s² (`KINDS`).
+    Velocities and accelerations are means over five frames. Turning about y, moving anywhere and
+    playing backwards change nothing.
 
-    Returns:
-        [K, 3] in m²/s², m²/s², m/s²: `KINDS`. Velocities and accelerations are means over five
-        frames. Turning about y, moving anywhere and playing backwards change nothing.
-
-    Raises:
-        ValueError: fewer than 3 frames, NaN or infinity.
+    Raises ValueError: fewer than 3 frames, NaN or infinity.
     """
     path = _checked(points)
     velocity = windowed_mean(np.diff(path, axis=0)) * fps  # T-1 K 3
@@ -143,48 +133,45 @@ def _along(vector: Array, direction: Array) -> Array:
 
 def _angle(a: Array, b: Array) -> Array:
     """Degrees [T-1] between two vectors."""
-    return np.asarray(
-        np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(-1)))
-    )
+    across = np.linalg.norm(np.cross(a, b), axis=-1)
+    return np.asarray(np.degrees(np.arctan2(across, (a * b).sum(-1))))
 
 
 def _of_one_side(body: _Body) -> dict[str, Array]:
     """What holds of the right or the left side: bool [T-1] each, 13 relations."""
-    hl = UPPER_ARM
-    leg = np.cross(body.to("pelvis", "other hip"), body.to("pelvis", "other foot"))
-    forwards = np.where((_along(leg, body.front()) < 0)[:, None], -leg, leg)
-    spine = body.to("pelvis", "neck")
+    hl, to, front = UPPER_ARM, body.to, body.front()
+    leg = np.cross(to("pelvis", "other hip"), to("pelvis", "other foot"))
+    forwards = np.where((_along(leg, front) < 0)[:, None], -leg, leg)
+    spine, thigh = to("pelvis", "neck"), to("hip", "knee")
+    away = {name: body.relative("hand", name) for name in ("neck", "spine3", "pelvis")}
     return {
-        "hand forwards": _along(body.relative("hand", "neck"), body.front()) > 1.8 * hl,
-        "hand above neck": _along(body.to("neck", "hand"), body.to("spine3", "neck")) > 0.2 * hl,
-        "hand upwards": _along(body.relative("hand", "spine3"), body.to("spine1", "spine3"))
-        > 1.8 * hl,
-        "elbow bent": _angle(body.to("elbow", "shoulder"), body.to("elbow", "hand")) < 110,
-        "hand leaves pelvis": _along(body.relative("hand", "pelvis"), body.to("pelvis", "hand"))
-        > 1.4 * hl,
+        "hand forwards": _along(away["neck"], front) > 1.8 * hl,
+        "hand above neck": _along(to("neck", "hand"), to("spine3", "neck")) > 0.2 * hl,
+        "hand upwards": _along(away["spine3"], to("spine1", "spine3")) > 1.8 * hl,
+        "elbow bent": _angle(to("elbow", "shoulder"), to("elbow", "hand")) < 110,
+        "hand leaves pelvis": _along(away["pelvis"], to("pelvis", "hand")) > 1.4 * hl,
         "hand fast": body.speed("hand") > 2.5 * hl,
-        "foot before other leg": _along(body.to("pelvis", "ankle"), forwards) > 0.38 * hl,
+        "foot before other leg": _along(to("pelvis", "ankle"), forwards) > 0.38 * hl,
         "foot raised": body.height("ankle") > 1.2 * hl,
-        "knee bent": _angle(body.to("knee", "hip"), body.to("knee", "ankle")) < 110,
+        "knee bent": _angle(to("knee", "hip"), to("knee", "ankle")) < 110,
         "foot fast": body.speed("ankle") > 2.5 * hl,
-        "arm away from trunk": _angle(-spine, body.to("shoulder", "elbow")) > 25,
-        "leg away from trunk": _angle(-spine, body.to("hip", "knee")) > 50,
+        "arm away from trunk": _angle(-spine, to("shoulder", "elbow")) > 25,
+        "leg away from trunk": _angle(-spine, thigh) > 50,
         "hand low": body.height("hand") < 1.2 * hl,
     }
 
 
 def _of_both_sides(body: _Body) -> dict[str, Array]:
     """What holds of the body as a whole: bool [T-1] each, 6 relations."""
-    hl, up = UPPER_ARM, np.array([0.0, 1.0, 0.0])
-    lean = _angle(body.to("neck", "pelvis"), up)
-    stance = np.cross(body.to("r_ankle", "l_ankle"), body.to("r_ankle", "neck"))
+    hl, to = UPPER_ARM, body.to
+    lean = _angle(to("neck", "pelvis"), np.array([0.0, 1.0, 0.0]))
+    stance = np.cross(to("r_ankle", "l_ankle"), to("r_ankle", "neck"))
+    hands, parting = to("l_wrist", "r_wrist"), body.relative("l_wrist", "r_wrist")
     return {
-        "hands apart": _along(body.to("l_wrist", "r_wrist"), body.to("l_shoulder", "r_shoulder"))
-        > 2.5 * SHOULDERS,
-        "hands approach": _along(body.relative("l_wrist", "r_wrist"), body.to("l_wrist", "r_wrist"))
-        > 1.4 * hl,
-        "feet apart": _along(body.to("l_ankle", "r_ankle"), body.to("l_hip", "r_hip")) > 2.1 * HIPS,
-        "pelvis before feet": _along(body.to("r_ankle", "pelvis"), stance) > 0.5 * hl,
+        "hands apart": _along(hands, to("l_shoulder", "r_shoulder")) > 2.5 * SHOULDERS,
+        "hands approach": _along(parting, hands) > 1.4 * hl,
+        "feet apart": _along(to("l_ankle", "r_ankle"), to("l_hip", "r_hip")) > 2.1 * HIPS,
+        "pelvis before feet": _along(to("r_ankle", "pelvis"), stance) > 0.5 * hl,
         "trunk level": (lean > 70) & (lean < 110),
         "pelvis fast": body.speed("pelvis") > 2.3 * hl,
     }
@@ -202,10 +189,7 @@ def geometric_relations(points: Array, fps: float) -> dict[str, Array]:
 
 def geometric_features(points: Array, fps: float) -> Array:
     """Share [32] of frames in which each relation holds, of positions [T, 22, 3] in metres.
-
-    Raises:
-        ValueError: fewer than 3 frames, NaN or infinity.
-    """
+    Raises ValueError: fewer than 3 frames, NaN or infinity."""
     if points.shape[1] != len(JOINT_NAMES):
         raise ValueError(f"{points.shape[1]} joints: the relations need all {len(JOINT_NAMES)}")
     return np.array([holds.mean() for holds in geometric_relations(points, fps).values()])
@@ -247,25 +231,16 @@ def root_geometric_features(trajectory: MotionTrajectory) -> Array:
     turn = windowed_mean(_turning(trajectory))[:, 1]
     _, x, _, z = trajectory.quaternion[:-1].T.astype(np.float64)
     upright = 1 - 2 * (x**2 + z**2)  # y of the turned up axis
+    rise, speed = velocity[:, 1], np.linalg.norm(velocity, axis=1)
     relations = (
-        height < 0.85,
-        height > 1.03,
-        velocity[:, 1] > 0.2,
-        velocity[:, 1] < -0.2,
-        np.linalg.norm(velocity, axis=1) > 2.3 * UPPER_ARM,
-        ahead > 0.3,
-        ahead < -0.3,
-        left > 0.3,
-        left < -0.3,
-        turn > 1,
-        turn < -1,
+        height < 0.85, height > 1.03, rise > 0.2, rise < -0.2, speed > 2.3 * UPPER_ARM,
+        ahead > 0.3, ahead < -0.3, left > 0.3, left < -0.3, turn > 1, turn < -1,
         upright < np.cos(np.radians(20)),
-    )
+    )  # fmt: skip
     return np.array([holds.mean() for holds in relations])
 
 
 # ---------------------------------------------------------------- FID_k, FID_g, Div_k and Div_g
-
 
 AXES = 16  # of the reduced distance, which needs fewer motions
 PIECE = 4.0  # seconds: a mean over a longer motion varies less, so all pieces are of one length
@@ -286,10 +261,7 @@ class FeatureSpace:
     @classmethod
     def fit(cls, real: np.ndarray, kinds: np.ndarray) -> "FeatureSpace":
         """Of real features [N, F] whose units are told by `kinds` [F].
-
-        Raises:
-            ValueError: fewer than two motions, NaN or infinity.
-        """
+        Raises ValueError: fewer than two motions, NaN or infinity."""
         if len(real) < 2 or not np.isfinite(real).all():
             raise ValueError(f"features {real.shape} must be finite and of 2 motions or more")
         deviation = real.std(0, ddof=1)
@@ -318,11 +290,8 @@ Stacked = tuple[Array, Array, Array]  # the same of N motions: [N, F], [N, F'] a
 def body_features(motion: Motion) -> Features:
     """Kinetic [66] and geometric [32] features and the amount of motion in m/s of a body."""
     points = motion.positions()
-    return (
-        kinetic_features(points, motion.fps).reshape(-1),
-        geometric_features(points, motion.fps),
-        amount(points, motion.fps),
-    )
+    kinetic = kinetic_features(points, motion.fps).reshape(-1)
+    return kinetic, geometric_features(points, motion.fps), amount(points, motion.fps)
 
 
 def root_features(trajectory: MotionTrajectory) -> list[Features]:
@@ -334,12 +303,8 @@ def root_features(trajectory: MotionTrajectory) -> list[Features]:
     starts = range(0, max(trajectory.num_frames - size, 0) + 1, size)
     pieces = [MotionTrajectory(trajectory.data[at : at + size], trajectory.fps) for at in starts]
     return [
-        (
-            root_kinetic_features(piece),
-            root_geometric_features(piece),
-            amount(piece.position, piece.fps),
-        )
-        for piece in pieces
+        (root_kinetic_features(p), root_geometric_features(p), amount(p.position, p.fps))
+        for p in pieces
     ]
 
 
@@ -361,8 +326,7 @@ def kinetic_columns(
     """Distances and diversity of both sets of features, and the amount of motion.
 
     Args:
-        made: N ≥ 2 motions.
-        real: M ≥ 2 motions.
+        made, real: N ≥ 2 and M ≥ 2 motions.
         kinds: kinetic features a joint; they have units of their own.
         units_of: motions whose spread is the unit; None = `real`.
 

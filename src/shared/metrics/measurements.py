@@ -27,8 +27,6 @@ _OFFSETS = canonical_skeleton().offsets
 ARM_LENGTH = float(
     np.abs(_OFFSETS[JOINT_INDEX["l_elbow"], 0]) + np.abs(_OFFSETS[JOINT_INDEX["l_wrist"], 0])
 )
-
-
 HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
 AT_REST = 3  # frames at either end
 _TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
@@ -229,19 +227,19 @@ def _travel(tracks: _Tracks) -> Figures:
 
 
 def _hands(tracks: _Tracks) -> Figures:
-    found: dict[str, list[float]] = {}
+    sides = []
     for letter in "lr":
         wrist, shoulder = tracks.joint(f"{letter}_wrist"), tracks.joint(f"{letter}_shoulder")
         above = (wrist - shoulder)[:, 1] / ARM_LENGTH
         seen = tracks.seen(f"{letter}_wrist") - tracks.seen("spine3")
-        for key, value in {
+        figures = {
             "hand_high": float((above > 0.0).sum() / tracks.fps),
             "hand_peak": float(np.percentile(above, 95)),
             "hand_travel": float(np.linalg.norm(np.diff(seen, axis=0), axis=-1).sum()),
             "hand_swings": _swings(seen[above > -0.1]),
-        }.items():
-            found.setdefault(key, []).append(value)
-    return {key: tuple(pair) for key, pair in found.items()}
+        }
+        sides.append(figures)
+    return {key: tuple(side[key] for side in sides) for key in sides[0]}
 
 
 def _swings(points: Array) -> int:
@@ -275,7 +273,8 @@ def _arms_at_work(tracks: _Tracks) -> Figures:
     held = smooth((gap < 0.3).astype(float), third)[third // 2 :] > 0.99  # about the sweep's middle
     swept = np.linalg.norm(middle[third:] - middle[:-third], axis=-1)
     swept = np.where(held[: len(swept)], swept, 0.0)
-    tilt = np.degrees(np.arcsin(np.clip((up[:, [0, 2]] * _ahead(tracks)).sum(-1), -1, 1)))
+    faced = np.stack((np.sin(tracks.heading), np.cos(tracks.heading)), -1)
+    tilt = np.degrees(np.arcsin(np.clip((up[:, [0, 2]] * faced).sum(-1), -1, 1)))
     tall = tracks.joints[:, 0, 1] > 0.83 * REST_PELVIS_HEIGHT  # else it is a squat or a jump
     tilt = np.where(tall & (_ground_speed(tracks) < 0.5), tilt, np.minimum(tilt, 25.0))
     return {
@@ -289,10 +288,6 @@ def _arms_at_work(tracks: _Tracks) -> Figures:
 def _ground_speed(tracks: _Tracks) -> Array:
     path = smooth(tracks.joints[:, 0], round(0.3 * tracks.fps))
     return np.asarray(np.linalg.norm(np.gradient(path[:, [0, 2]], axis=0), axis=-1) * tracks.fps)
-
-
-def _ahead(tracks: _Tracks) -> Array:
-    return np.stack((np.sin(tracks.heading), np.cos(tracks.heading)), -1)
 
 
 def _feet(tracks: _Tracks) -> Figures:
@@ -344,12 +339,9 @@ def _steps(m: Measurements, distance: float, speed: float) -> bool:
     return distance > 0.3 and speed > 0.17 and m.stride > _MIN_STRIDE
 
 
-def _forward(m: Measurements) -> bool:
-    return _steps(m, m.forward, m.forward_speed) and abs(m.lateral) < 0.6 * m.forward
-
-
-def _backward(m: Measurements) -> bool:
-    return _steps(m, -m.forward, -m.forward_speed) and abs(m.lateral) < -0.6 * m.forward
+def _straight(m: Measurements, sign: int) -> bool:
+    way = sign * m.forward
+    return _steps(m, way, sign * m.forward_speed) and abs(m.lateral) < 0.6 * way
 
 
 def _sideways(m: Measurements, sign: int) -> bool:
@@ -367,10 +359,6 @@ def _one_hand(m: Measurements, side: int) -> bool:
     return _hand_up(m, side) and m.hand_peak[side] - m.hand_peak[1 - side] > 0.35
 
 
-def _both_hands(m: Measurements) -> bool:
-    return all(_hand_up(m, side) and m.hand_peak[side] > -0.15 for side in (0, 1))
-
-
 def _waves(m: Measurements) -> bool:
     highest = max((0, 1), key=lambda side: m.hand_peak[side])
     return _hand_up(m, highest) and m.hand_swings[highest] >= 4
@@ -378,7 +366,7 @@ def _waves(m: Measurements) -> bool:
 
 def _runs(m: Measurements) -> bool:
     flies = m.flight > 0.05 * m.seconds
-    return _forward(m) and (m.cruise > 2.0 or (flies and m.cruise > 1.3))
+    return _straight(m, 1) and (m.cruise > 2.0 or (flies and m.cruise > 1.3))
 
 
 def _stays(m: Measurements) -> bool:
@@ -391,8 +379,8 @@ def _stands(m: Measurements) -> bool:
 
 
 _RAW: dict[str, Check] = {
-    "forward": _forward,
-    "backward": _backward,
+    "forward": lambda m: _straight(m, 1),
+    "backward": lambda m: _straight(m, -1),
     "left": lambda m: _sideways(m, 1),
     "right": lambda m: _sideways(m, -1),
     "turn-left": lambda m: m.yaw > _MIN_TURN,
@@ -401,7 +389,7 @@ _RAW: dict[str, Check] = {
     "right-hand": lambda m: _one_hand(m, 1),
     "left-hand-too": lambda m: _hand_up(m, 0),
     "right-hand-too": lambda m: _hand_up(m, 1),
-    "both-hands": _both_hands,
+    "both-hands": lambda m: all(_hand_up(m, side) and m.hand_peak[side] > -0.15 for side in (0, 1)),
     "wave": _waves,
     "run": _runs,
     "squat": lambda m: m.squats >= 1,
@@ -445,17 +433,13 @@ def _side_steps(m: Measurements) -> bool:
     return any(_sideways(m, sign) for sign in (1, -1)) and abs(m.lateral_net) > abs(m.forward_net)
 
 
-def _turns_in_place(m: Measurements) -> bool:
-    return abs(m.yaw) > _MIN_TURN and _within(m, 0.6) and max(m.hand_peak) < -0.3
-
-
 _ACTIONS: dict[str, Check] = {
     "walk": _walks,
     "run": _runs,
     "wave": _waves,
     "crouch-walk": lambda m: m.pelvis_low < 0.85 and _travels(m, 0.2),
     "side-step": _side_steps,
-    "turn": _turns_in_place,
+    "turn": lambda m: abs(m.yaw) > _MIN_TURN and _within(m, 0.6) and max(m.hand_peak) < -0.3,
     "spin": lambda m: abs(m.yaw) > 4.7 and _within(m, 0.8),
     "kick": lambda m: max(m.kicks) >= 1,
     "punch": lambda m: max(m.punches) >= 1 and not _travels(m, 0.25),

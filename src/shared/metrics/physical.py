@@ -35,8 +35,7 @@ def contact_slide(positions: np.ndarray, fps: float) -> float:
     """Mean horizontal speed in cm/s of the balls of the feet over frames in contact.
 
     Contacts come from `detect_contacts`, which itself asks for a slow foot, so a foot that glides
-    fast is not counted here: read it together with `support_slide`; NaN
-    without contact.
+    fast is not counted here: read it together with `support_slide`; NaN without contact.
     """
     contact = detect_contacts(positions, fps)[:-1] > 0.5  # [T - 1, 2]
     speed = ground_speed(positions[:, BALLS], fps)
@@ -101,7 +100,6 @@ def physics(motion: Motion) -> dict[str, float]:
 
 # ---------------------------------------------------------------- feet and floor
 
-
 GRAVITY = 9.81  # m/s²
 SKATING = 0.1  # m/s of a foot that carries the body
 SUNK = 0.01  # metres below the standing height of the ball of a foot
@@ -114,10 +112,7 @@ PFC_FPS = 30.0  # of the published figures
 
 def contact(motion: Motion) -> dict[str, float]:
     """Figures of one motion of at least two frames; NaN where there is nothing to judge.
-
-    Raises:
-        ValueError: NaN or infinity.
-    """
+    Raises ValueError: NaN or infinity."""
     positions = motion.positions().astype(np.float64)
     if not np.isfinite(positions).all():
         raise ValueError("positions hold NaN or infinity")
@@ -148,9 +143,6 @@ def _mean(values: np.ndarray) -> float:
     return float(values.mean()) if values.size else float("nan")
 
 
-# ---------------------------------------------------------------- sliding
-
-
 def support_speed(positions: np.ndarray, fps: float) -> np.ndarray:
     """Horizontal m/s of the lower ball of a foot in each frame where it is near the floor.
 
@@ -172,9 +164,6 @@ def slide_per_metre(positions: np.ndarray, fps: float) -> float:
     way = float(ground_speed(positions[:, 0], fps).sum() / fps)
     slid = float(support_speed(positions, fps).sum() / fps)
     return 100 * slid / way if way >= MIN_PATH else float("nan")
-
-
-# ---------------------------------------------------------------- the floor
 
 
 def unsupported(positions: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarray]:
@@ -238,7 +227,6 @@ def pfc(positions: np.ndarray, fps: float) -> float:
 
 
 # ---------------------------------------------------------------- travel
-
 
 MIN_TRAVEL = 0.5  # metres: below this a direction is noise
 

@@ -22,6 +22,7 @@ from scipy.stats import rankdata
 
 BATCH = 32
 TOP = (1, 2, 3)
+Seed = int | Sequence[int] | np.random.Generator
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,8 +93,7 @@ def guo_retrieval(
         Chance of a right answer at 1, 2, 3 [3, Q], text by text in any order; their mean is the
         R-precision.
 
-    Raises:
-        ValueError: fewer pairs than one batch, shapes that differ, or values that are not finite.
+    Raises ValueError: fewer pairs than one batch, shapes that differ, or values not finite.
     """
     if text.shape != motion.shape or any(len(column) != len(text) for column in equal_by):
         sizes = [len(column) for column in equal_by]
@@ -104,15 +104,25 @@ def guo_retrieval(
         raise ValueError(f"{len(text)} pairs are fewer than one batch of {BATCH}: add samples")
     if not (np.isfinite(text).all() and np.isfinite(motion).all()):
         raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    return np.concatenate([hits for _, hits in in_batches(text, motion, equal_by, seed)], axis=1)
+
+
+def in_batches(
+    text: np.ndarray, motion: np.ndarray, equal_by: Sequence[Sequence[object]], seed: Seed
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Rows [32] of each random batch, and what `guo_retrieval` says of them [3, 32]."""
     columns = [np.unique([str(v) for v in c], return_inverse=True)[1] for c in equal_by]
     columns.append(np.arange(len(text)))
-    order = np.random.default_rng(seed).permutation(len(text))
-    hits: list[list[np.ndarray]] = []
-    for rows in order[: len(text) // BATCH * BATCH].reshape(-1, BATCH):
+    for rows in batches(len(text), BATCH, seed):
         relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
         ranks = best_ranks(pair_distances(text[rows], motion[rows]), relevant)
-        hits.append([ranks.hits(k) for k in TOP])
-    return np.concatenate(hits, axis=1)
+        yield rows, np.stack([ranks.hits(k) for k in TOP])
+
+
+def batches(number: int, size: int, seed: Seed) -> np.ndarray:
+    """Rows [B, size] in a random order; an incomplete last batch is left out."""
+    order = np.random.default_rng(seed).permutation(number)
+    return order[: number // size * size].reshape(-1, size)
 
 
 def normalised_score(generated: float, chance: float, real: float) -> float:
@@ -122,7 +132,6 @@ def normalised_score(generated: float, chance: float, real: float) -> float:
 
 
 # ---------------------------------------------------------------- texts as bags of n-grams
-
 
 NUM_BUCKETS = 8192
 STEM = 4  # characters of a word beginning
@@ -152,15 +161,11 @@ def caption_buckets(text: str, num_buckets: int = NUM_BUCKETS) -> list[int]:
 
 # ---------------------------------------------------------------- TMR's protocols
 
-
 RECALL_AT = (1, 2, 3, 5, 10)
 THRESHOLD = 0.95  # of (1 + cosine) / 2 of two texts, as in TMR
 POOL = 256  # candidates of protocols (a) and (b) in the tables, whose rows differ in N
 SUBSET = 100  # pairs of the dissimilar subset
 PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
-
-
-# ---------------------------------------------------------------- similarities
 
 
 def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
@@ -169,8 +174,7 @@ def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
     Equal rows are multiplied once, so that equal embeddings are equally similar to the last bit:
     a matrix product alone may round two copies of a row differently and break their tie.
 
-    Raises:
-        ValueError: shapes that differ, NaN or infinity, or a vector of length 0.
+    Raises ValueError: shapes that differ, NaN or infinity, or a vector of length 0.
     """
     if text.ndim != 2 or text.shape != motion.shape:
         raise ValueError(f"texts {text.shape} and motions {motion.shape} must be aligned [N, D]")
@@ -246,9 +250,6 @@ def _farthest(similarity: np.ndarray, size: int) -> np.ndarray:
     return np.flatnonzero(kept)
 
 
-# ---------------------------------------------------------------- protocols
-
-
 def recalls(
     text: np.ndarray, motion: np.ndarray, similarity: np.ndarray | None = None
 ) -> np.ndarray:
@@ -286,16 +287,12 @@ def recall_in_pools(
     different N only compare in pools of one size. Mean over the pools; an incomplete last one is
     left out, and the median rank is the mean of the pools' medians. Returns what `recalls` does.
 
-    Raises:
-        ValueError: fewer pairs than one pool.
+    Raises ValueError: fewer pairs than one pool.
     """
     if len(text) < size:
         raise ValueError(f"{len(text)} pairs are fewer than one pool of {size}: add samples")
-    order = np.random.default_rng(seed).permutation(len(text))
-    found = [
-        recalls(
-            text[rows], motion[rows], None if similarity is None else similarity[np.ix_(rows, rows)]
-        )
-        for rows in order[: len(text) // size * size].reshape(-1, size)
-    ]
+    found = []
+    for rows in batches(len(text), size, seed):
+        alike = None if similarity is None else similarity[np.ix_(rows, rows)]
+        found.append(recalls(text[rows], motion[rows], alike))
     return np.asarray(np.mean(found, axis=0))

@@ -75,10 +75,8 @@ def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
 def distances(beats: np.ndarray, others: np.ndarray) -> np.ndarray:
     """Seconds [N] from each of `beats` [N] to the nearest of `others` [M], sorted, M ≥ 1."""
     right = np.clip(np.searchsorted(others, beats), 1, max(1, len(others) - 1))
-    left = others[right - 1]
-    return np.asarray(
-        np.minimum(np.abs(beats - left), np.abs(others[np.minimum(right, len(others) - 1)] - beats))
-    )
+    before, after = others[right - 1], others[np.minimum(right, len(others) - 1)]
+    return np.asarray(np.minimum(np.abs(beats - before), np.abs(after - beats)))
 
 
 def beat_alignment(beats: np.ndarray, others: np.ndarray) -> float:
@@ -235,21 +233,15 @@ def rhythm(motion: np.ndarray, music: np.ndarray, seconds: float) -> Rhythm:
     Beats outside count as neighbours, never as beats of their own. A motion that never slows down
     has no beats and scores 0: it must not win by leaving.
 
-    Raises:
-        ValueError: a time is NaN or infinite.
+    Raises ValueError: a time is NaN or infinite.
     """
     if not (np.isfinite(motion).all() and np.isfinite(music).all()):
         raise ValueError("beat times hold NaN or infinity")
     made, heard = _inside(motion, seconds), _inside(music, seconds)
     forth, back, f = _both_ways(made, heard, motion, music)
     near = len(made) and len(music)
-    return Rhythm(
-        motion_to_music=forth,
-        music_to_motion=back,
-        f=f,
-        hits=hit_f_measure(heard, made),
-        distance=float(np.median(distances(made, music))) if near else float("nan"),
-    )
+    distance = float(np.median(distances(made, music))) if near else float("nan")
+    return Rhythm(forth, back, f, hit_f_measure(heard, made), distance)
 
 
 def rhythm_f(motion: np.ndarray, music: np.ndarray, seconds: float) -> float:
@@ -325,7 +317,6 @@ def mean_rhythm(scores: list[Rhythm]) -> Rhythm:
 
 
 # ---------------------------------------------------------------- when a whole body dances
-
 
 DOWN, UP = 0.02, 0.04  # metres of a ball of the foot above its standing height
 

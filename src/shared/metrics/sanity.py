@@ -21,7 +21,7 @@ Letters: T frames.
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -41,9 +41,12 @@ from ..motion.trajectory import (
 )
 
 
-def quaternion_norm(trajectory: MotionTrajectory) -> float:
-    """The mean norm of the quaternions."""
-    return float(np.linalg.norm(_columns(trajectory, QUATERNION), axis=1).mean())
+def _columns(trajectory: MotionTrajectory, columns: slice) -> np.ndarray:
+    return trajectory.data[:, columns].astype(np.float64)
+
+
+def _mean(values: np.ndarray) -> float:
+    return float(values.mean()) if values.size else 0.0
 
 
 def phase_range(trajectory: MotionTrajectory) -> tuple[float, float]:
@@ -64,14 +67,10 @@ def jerk(trajectory: MotionTrajectory) -> float:
     return _mean(np.linalg.norm(steps, axis=1))
 
 
-def velocity_error(trajectory: MotionTrajectory) -> float:
-    """Mean absolute difference of velocity column and forward difference of position, m/s."""
-    return _incoherence(trajectory, POSITION, VELOCITY)
-
-
-def acceleration_error(trajectory: MotionTrajectory) -> float:
-    """Mean absolute difference of acceleration column and difference of velocity, m/s²."""
-    return _incoherence(trajectory, VELOCITY, ACCELERATION)
+def incoherence(trajectory: MotionTrajectory, of: slice, claimed: slice) -> float:
+    """Mean absolute difference of one column and the forward difference of another."""
+    derived = np.diff(_columns(trajectory, of), axis=0) * trajectory.fps
+    return _mean(np.abs(_columns(trajectory, claimed)[:-1] - derived))
 
 
 def quaternion_continuity(trajectory: MotionTrajectory) -> float:
@@ -96,27 +95,14 @@ def phase_step(trajectory: MotionTrajectory) -> float:
 
 
 CHECKS: dict[str, Callable[[MotionTrajectory], float]] = {
-    "quaternion": quaternion_norm,
+    "quaternion": lambda t: float(np.linalg.norm(_columns(t, QUATERNION), axis=1).mean()),
     "phase": phase_excess,
     "jerk": jerk,
-    "velocity_coherence": velocity_error,
-    "accel_coherence": acceleration_error,
+    "velocity_coherence": partial(incoherence, of=POSITION, claimed=VELOCITY),  # m/s
+    "accel_coherence": partial(incoherence, of=VELOCITY, claimed=ACCELERATION),  # m/s²
     "quaternion_continuity": quaternion_continuity,
     "phase_monotonic": phase_step,
 }
-
-
-def _columns(trajectory: MotionTrajectory, columns: slice) -> np.ndarray:
-    return trajectory.data[:, columns].astype(np.float64)
-
-
-def _mean(values: np.ndarray) -> float:
-    return float(values.mean()) if values.size else 0.0
-
-
-def _incoherence(trajectory: MotionTrajectory, of: slice, claimed: slice) -> float:
-    derived = np.diff(_columns(trajectory, of), axis=0) * trajectory.fps
-    return _mean(np.abs(_columns(trajectory, claimed)[:-1] - derived))
 
 
 # ---------------------------------------------------------------- figures of the path
@@ -157,18 +143,10 @@ MEASURES: dict[str, Callable[[MotionTrajectory], float]] = {
     "path_jerk": partial(mean_rate, order=3),
     "roughness": roughness,
 }
-UNITS = {
-    "mean_speed": "m/s",
-    "path_rate": "m/s",
-    "turning": "rad/s",
-    "mean_acceleration": "m/s²",
-    "path_jerk": "m/s³",
-    "roughness": "1/s",
-}
+UNITS = dict(zip(MEASURES, ("m/s", "m/s", "rad/s", "m/s²", "m/s³", "1/s"), strict=True))
 
 
 # ---------------------------------------------------------------- what real motions measure
-
 
 FORMAT_VERSION = 1
 SLACK = 3.0  # a factor beyond the band at both ends that still passes
@@ -209,44 +187,33 @@ class Bands:
 
     @classmethod
     def of(cls, trajectories: Iterable[MotionTrajectory]) -> "Bands":
-        """Measure real motions.
-
-        Raises:
-            UserError: there are none.
-        """
+        """Measure real motions. Raises UserError: there are none."""
         figures = CHECKS | MEASURES
         rows = [[figure(motion) for figure in figures.values()] for motion in trajectories]
         if not rows:
             raise UserError("no real motions to measure; give at least one trajectory")
         limits = np.percentile(rows, (5, 50, 95), axis=0).T.tolist()
-        return cls(
-            {name: Band(*each) for name, each in zip(figures, limits, strict=True)}, len(rows)
-        )
+        bands = {name: Band(*each) for name, each in zip(figures, limits, strict=True)}
+        return cls(bands, len(rows))
 
     def save(self, path: str | Place) -> Place:
-        """Write JSON.
-
-        Raises:
-            UserError: the file cannot be written.
-        """
-        content = {
-            "format_version": FORMAT_VERSION,
-            "motions": self.motions,
-            "bands": {name: asdict(band) for name, band in self.bands.items()},
-        }
+        """Write JSON. Raises UserError: the file cannot be written."""
+        bands = {name: asdict(band) for name, band in self.bands.items()}
+        content = {"format_version": FORMAT_VERSION, "motions": self.motions, "bands": bands}
         write_json(place(path), content)
         return place(path)
 
     @classmethod
     def load(cls, path: str | Path) -> "Bands":
-        """Read what `save` wrote.
-
-        Raises:
-            UserError: the file is missing, damaged or not ours.
-        """
+        """Read what `save` wrote. Raises UserError: the file is missing, damaged or not ours."""
         try:
             content = load_json(place(path))
-            bands = {name: _band(cells) for name, cells in content["bands"].items()}
+            bands = {
+                name: Band(*(float(cells[key]) for key in ("low", "median", "high")))
+                for name, cells in content["bands"].items()
+            }
+            if not all(math.isfinite(x) for band in bands.values() for x in astuple(band)):
+                raise ValueError("a band is not finite")
             return cls(bands, int(content["motions"]))
         except OSError as error:
             raise UserError(
@@ -260,26 +227,13 @@ class Bands:
 
     def inside(self, trajectory: MotionTrajectory) -> dict[str, bool]:
         """For each of `MEASURES`: does this motion lie between the 5th and 95th percentile?"""
-        return {
-            name: self.bands[name].holds(measure(trajectory))
-            for name, measure in MEASURES.items()
-            if name in self.bands
-        }
-
-
-def _band(cells: dict[str, float]) -> Band:
-    band = Band(float(cells["low"]), float(cells["median"]), float(cells["high"]))
-    if not all(math.isfinite(value) for value in (band.low, band.median, band.high)):
-        raise ValueError("a band is not finite")
-    return band
+        known = {name: self.bands[name] for name in MEASURES if name in self.bands}
+        return {name: band.holds(MEASURES[name](trajectory)) for name, band in known.items()}
 
 
 # ---------------------------------------------------------------- the suite
 
-
 SEVEN = tuple(CHECKS)  # names of the documents' checks; the others have names of their own
-
-
 Figure = float | tuple[float, float]
 WHAT = {
     "quaternion": "mean norm",
@@ -339,8 +293,7 @@ class SanityChecker:
     def check_all(self, trajectory: MotionTrajectory) -> tuple[bool, dict[str, CheckResult]]:
         """Run everything; a value that is not finite fails.
 
-        Args:
-            trajectory: as the model gave it, not clamped, at least one frame.
+        `trajectory`: as the model gave it, not clamped, at least one frame.
 
         Returns:
             Whether all passed, and the results by name: the seven checks, `liveliness`,
@@ -361,12 +314,9 @@ class SanityChecker:
             "quaternion": (norms[0] <= value["quaternion"] <= norms[1], norms),
             "phase": (phases[0] <= low and high <= phases[1], phases),
         }
-        for name, most in (
-            ("jerk", t.max_jerk),
-            ("velocity_coherence", t.max_velocity_error),
-            ("accel_coherence", t.max_acceleration_error),
-        ):
-            found[name] = value[name] < most, most
+        most = {"jerk": t.max_jerk, "velocity_coherence": t.max_velocity_error}
+        most["accel_coherence"] = t.max_acceleration_error
+        found |= {name: (value[name] < bound, bound) for name, bound in most.items()}
         least, backstep = t.min_quaternion_continuity, -t.max_phase_backstep
         found["quaternion_continuity"] = value["quaternion_continuity"] > least, least
         found["phase_monotonic"] = value["phase_monotonic"] >= backstep, backstep
@@ -385,8 +335,8 @@ class SanityChecker:
             band, value, what = known[name], MEASURES[name](trajectory), name.replace("_", " ")
             real = f"(real {band.low:.4g} to {band.high:.4g})"
             message = f"{what}: {value:.4g} {UNITS[name]} {real}"
-            limits, edges = band.limits, (band.low, band.high)
-            yield CheckResult(f"band_{name}", band.tolerates(value), value, limits, message, edges)
+            passed, edges = band.tolerates(value), (band.low, band.high)
+            yield CheckResult(f"band_{name}", passed, value, band.limits, message, edges)
 
 
 def _text(value: Figure) -> str:
@@ -449,16 +399,11 @@ def share(value: float, limit: float, edge: float) -> float:
 
 def frozen(trajectory: MotionTrajectory) -> MotionTrajectory:
     """The first pose held while the music goes on: a row that must fail."""
-    still = trajectory.data[:1]
-    columns = MotionTrajectory(still, trajectory.fps)
-    length = (trajectory.num_frames, 1)
-    return MotionTrajectory.from_pose(
-        np.tile(columns.position, length),
-        np.tile(columns.quaternion, length),
-        trajectory.phase_unwrapped,
-        trajectory.style,
-        fps=trajectory.fps,
-    )
+    first = MotionTrajectory(trajectory.data[:1], trajectory.fps)
+    length, phase = (trajectory.num_frames, 1), trajectory.phase_unwrapped
+    position, quaternion = np.tile(first.position, length), np.tile(first.quaternion, length)
+    style, fps = trajectory.style, trajectory.fps
+    return MotionTrajectory.from_pose(position, quaternion, phase, style, fps=fps)
 
 
 def sanity_row(
@@ -480,6 +425,7 @@ def sanity_row(
         count = sum(results[key].passed for _, results in outcomes)
         checks[key] = {"passed": count, "mean": mean if np.isfinite(mean) else None}
     known = [] if bands is None else [bands.inside(motion) for motion in motions]
+    failed = [[r.name for r in results.values() if not r.passed] for _, results in outcomes]
     seven = sum(all(results[key].passed for key in SEVEN) for _, results in outcomes)
     passed = sum(good for good, _ in outcomes)
     return {
@@ -490,9 +436,5 @@ def sanity_row(
         "rate": passed / len(motions) if motions else None,
         "checks": checks,
         "inside": {k: float(np.mean([r[k] for r in known])) for k in (known[0] if known else ())},
-        "failures": [
-            {"index": index, "failed": [r.name for r in results.values() if not r.passed]}
-            for index, (good, results) in enumerate(outcomes)
-            if not good
-        ],
+        "failures": [{"index": i, "failed": names} for i, names in enumerate(failed) if names],
     }

@@ -85,12 +85,9 @@ def seam_report(songs: Sequence[Seamed], seed: int = 0, n: int = RESAMPLES) -> d
         return report
     sizes = [quantities(song.trajectory) for song in seamed]
     report["frames"] = sum(int(song.seam.sum()) for song in seamed)
+    marks = [song.seam[:-1] for song in seamed]
     report["quantities"] = {
-        name: compare(
-            [(values[name], song.seam[:-1]) for values, song in zip(sizes, seamed, strict=True)],
-            seed,
-            n,
-        )
+        name: compare(list(zip([each[name] for each in sizes], marks, strict=True)), seed, n)
         for name in sizes[0]
     }
     report["jumps"] = jumps(seamed)
@@ -109,26 +106,26 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
     seam, other = _split(songs)
     draws = rng.integers(0, len(songs), (n, len(songs)))
     drawn = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
-    null = np.array([measure(_turned(songs, rng)) for _ in range(n)])
+    turned = ([(v, np.roll(m, int(rng.integers(len(m))))) for v, m in songs] for _ in range(n))
+    null = np.array([measure(each) for each in turned])  # marks at random places of each song
     observed = measure(songs)
+    nulls = np.percentile(null, (2.5, 97.5), axis=0).T.tolist()
+    found = [
+        {"value": value, "null_low": low, "null_high": high}
+        for value, (low, high) in zip(observed.tolist(), nulls, strict=True)
+    ]
     report: dict[str, Any] = {}
     for index, point in enumerate(POINTS):
         report[f"seam_p{point}"] = float(np.percentile(seam, point))
         report[f"elsewhere_p{point}"] = float(np.percentile(other, point))
-        low, high = np.percentile(drawn[:, index], (2.5, 97.5))
-        report[f"ratio_p{point}"] = {
-            "value": float(observed[index]),
-            "low": float(low),
-            "high": float(high),
-            **_limits(null[:, index]),
-            "same": bool(low <= 1 <= high),
+        low, high = np.percentile(drawn[:, index], (2.5, 97.5)).tolist()
+        report[f"ratio_p{point}"] = found[index] | {
+            "low": low,
+            "high": high,
+            "same": low <= 1 <= high,
         }
-    report["ks"] = {
-        "value": float(observed[-1]),
-        **_limits(null[:, -1]),
-        "p": float((1 + (null[:, -1] >= observed[-1]).sum()) / (1 + n)),
-    }
-    return report
+    as_far = int((null[:, -1] >= observed[-1]).sum())
+    return report | {"ks": found[-1] | {"p": (1 + as_far) / (1 + n)}}
 
 
 def measure(songs: Sequence[Values]) -> np.ndarray:
@@ -161,15 +158,10 @@ def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
     """
     rows = [_steps(song) for song in songs]
     found: dict[str, Any] = {}
-    for name, pick in (
-        ("phase_step_min", np.min),
-        ("phase_step_max", np.max),
-        ("quaternion_dot_min", np.min),
-        ("position_step_max", np.max),
-    ):
-        step = name.rpartition("_")[0]
+    for name in ("phase_step_min", "phase_step_max", "quaternion_dot_min", "position_step_max"):
+        step, _, end = name.rpartition("_")
         split = _split([(row[step], row["seam"]) for row in rows])
-        found[name] = [float(pick(part)) for part in split]
+        found[name] = [float(part.min() if end == "min" else part.max()) for part in split]
     largest = (found["phase_step_max"], found["position_step_max"])
     found["none"] = (
         found["phase_step_min"][0] >= -1e-4
@@ -204,13 +196,3 @@ def _split(songs: Sequence[Values]) -> tuple[np.ndarray, np.ndarray]:
 
 def _ratios(seam: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.asarray(np.percentile(seam, POINTS) / np.maximum(np.percentile(other, POINTS), 1e-12))
-
-
-def _turned(songs: Sequence[Values], rng: np.random.Generator) -> list[Values]:
-    """The marks of each song, turned round to a random place."""
-    return [(values, np.roll(mask, int(rng.integers(len(mask))))) for values, mask in songs]
-
-
-def _limits(null: np.ndarray) -> dict[str, float]:
-    low, high = np.percentile(null, (2.5, 97.5))
-    return {"null_low": float(low), "null_high": float(high)}

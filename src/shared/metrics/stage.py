@@ -31,7 +31,10 @@ def stage(motion: Motion) -> dict[str, float]:
     """Figures of one dance of at least two frames; NaN where there is nothing to judge."""
     positions = motion.positions().astype(np.float64)
     path, heading = positions[:, 0, [0, 2]], heading_of(motion).astype(np.float64)
-    poses = local_poses(positions, heading)
+    # Joints seen from below the pelvis, facing +Z.
+    seen = positions - positions[:, :1] * np.array([1.0, 0.0, 1.0])
+    turns = -torch.from_numpy(heading)[:, None]
+    poses = np.asarray(turn_about_y(torch.from_numpy(seen), turns).numpy())
     apart = np.linalg.norm(path - path.mean(0), axis=1)
     return {
         "backward": backward_share(path, heading, motion.fps),
@@ -45,17 +48,10 @@ def stage(motion: Motion) -> dict[str, float]:
     }
 
 
-# ---------------------------------------------------------------- way and stage
-
-
-def _smooth(values: np.ndarray, fps: float) -> np.ndarray:
-    return smoothed(values, SWAY * fps)
-
-
 def backward_share(path: np.ndarray, heading: np.ndarray, fps: float) -> float:
     """Share of the way of a path [T, 2] (x, z) in metres that is gone more than 135° off the
     heading [T], radians; sways apart, and NaN where it never moves."""
-    step = np.diff(_smooth(path, fps), axis=0)  # T-1 2
+    step = np.diff(smoothed(path, SWAY * fps), axis=0)  # T-1 2
     length = np.linalg.norm(step, axis=1)
     length = np.where(length * fps > MOVING, length, 0.0)
     off = (np.arctan2(step[:, 0], step[:, 1]) - heading[:-1] + np.pi) % (2 * np.pi) - np.pi
@@ -66,24 +62,14 @@ def backward_share(path: np.ndarray, heading: np.ndarray, fps: float) -> float:
 def net_way(path: np.ndarray, fps: float) -> float:
     """How straight a path [T, 2] leads away: 1 for a line, 0 where it ends as it began; NaN
     where it never moves."""
-    smooth = _smooth(path, fps)
+    smooth = smoothed(path, SWAY * fps)
     way = float(np.linalg.norm(np.diff(smooth, axis=0), axis=1).sum())
     return float(np.linalg.norm(smooth[-1] - smooth[0])) / way if way > 1e-6 else float("nan")
 
 
 def turning(heading: np.ndarray, fps: float) -> float:
     """Mean degrees a second of a heading [T] in radians, unwrapped, either way; sways apart."""
-    return float(np.degrees(np.abs(np.diff(_smooth(heading, fps))).mean() * fps))
-
-
-# ---------------------------------------------------------------- poses
-
-
-def local_poses(positions: np.ndarray, heading: np.ndarray) -> np.ndarray:
-    """Joints [T, K, 3] seen from below the pelvis, facing +Z, of positions [T, K, 3]."""
-    ground = positions[:, :1] * np.array([1.0, 0.0, 1.0])
-    turned = turn_about_y(torch.from_numpy(positions - ground), -torch.from_numpy(heading)[:, None])
-    return np.asarray(turned.numpy())
+    return float(np.degrees(np.abs(np.diff(smoothed(heading, SWAY * fps))).mean() * fps))
 
 
 def distinct_poses(poses: np.ndarray) -> int:
@@ -101,9 +87,6 @@ def pose_dimensions(poses: np.ndarray) -> float:
     spread = np.linalg.svd(flat - flat.mean(0), compute_uv=False) ** 2  # A
     total = float((spread**2).sum())
     return float(spread.sum() ** 2 / total) if total > 1e-12 else 0.0
-
-
-# ---------------------------------------------------------------- feet
 
 
 def hovering(positions: np.ndarray, fps: float) -> float:

@@ -2,8 +2,8 @@
 
 import pytest
 
-from src.shared.evaluation.families import AUDIO_FAMILIES, TEXT_FAMILIES
-from src.shared.evaluation.families_dance import DANCE_FAMILIES
+from src.shared.evaluation.families import AUDIO_FAMILIES, DANCE_FAMILIES, TEXT_FAMILIES
+from src.shared.evaluation.tables import WORDS, Column
 
 
 @pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES, DANCE_FAMILIES])
@@ -15,3 +15,13 @@ def test_columns_are_unique_and_defined(families: tuple) -> None:  # type: ignor
     for family in families:
         assert len(family.definition) > 60 and isinstance(family.distance, bool)
         assert all(column.better in ("high", "low", "real") for column in family.columns)
+
+
+@pytest.mark.parametrize("kind", WORDS)
+def test_what_tables_say_is_whole(kind: str) -> None:
+    assert WORDS[kind].keys() <= {"title", "head", "columns", "note", "protocols"}
+    columns = [Column(*each) for each in WORDS[kind].get("columns", ())]
+    assert len({column.key for column in columns}) == len(columns)
+    for column in columns:
+        assert column.better in ("high", "low", "real") and column.decimals >= 0
+        assert isinstance(column.share, bool) and column.heading

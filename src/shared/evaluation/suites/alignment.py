@@ -6,39 +6,22 @@ Letters: N motion beats, M music beats.
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...metrics.rhythm import (
-    COLUMNS,
-    Rhythm,
-    against_chance,
-    mean_rhythm,
-    motion_beats,
-    rhythm,
-    song_phase,
-)
+from ...metrics import rhythm
 from ...motion.trajectory import FPS, MotionTrajectory
 from ..plots import new_figure, save_figure
 from ..samples import DanceSample, Moved
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
-from ..tables import Column, Grid, GridRow
+from ..tables import Grid, GridRow
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
-ALIGNMENT = (
-    Column("motion_to_music", "motion→music"), Column("music_to_motion", "music→motion"),
-    Column("f", "F"), Column("hits", "hits F"), Column("distance", "distance s"),
-)  # fmt: skip
-NOTES = {
-    "rows": "The first replication. chance: the motion turned round by random times; another"
-    " song: 8 others. ± is 95% over songs.",
-    "above": "own song minus the row, song by song, ± 95%; * the two rows' intervals do not"
-    " overlap.",
-}
 
 
 def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[Grid]:
@@ -50,13 +33,10 @@ def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[
             f"{part['songs']} songs; beats a second: motion {part['motion_beats']:.2f}, music"
             f" {part['music_beats']:.2f}; {part['without_beats']} motions without beats"
         )
-        for key, title, columns in (
-            ("rows", f"{name} motion on music ({size})", ALIGNMENT),
-            ("above", f"{name} motion: its own song above", ALIGNMENT[:-1]),
-        ):
+        for kind, key in (("alignment", "rows"), ("alignment above", "above")):
             rows = {row: GridRow(cells, part["songs"], 1) for row, cells in part[key].items()}
-            grid_name = f"alignment/{name}/{key}"
-            grids.append(Grid(grid_name, title, columns, rows, NOTES[key], "motion against"))
+            words = {"name": name, "size": size}
+            grids.append(Grid.of(kind, rows, words, name=f"alignment/{name}/{key}"))
     return grids
 
 
@@ -87,32 +67,27 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         two rows' intervals do not overlap, and there are `FEW` songs or more; songs, motion_beats,
         music_beats, without_beats.
     """
-    scores: dict[str, list[Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
+    scores: dict[str, list[rhythm.Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
     for index, dance in enumerate(dances):
         rng = np.random.default_rng([seed, 2, index])
         for name, score in song_scores(dance, dances, rng).items():
             scores[name].append(score)
-    values = {
-        name: {column: np.array([getattr(score, column) for score in found]) for column in COLUMNS}
-        for name, found in scores.items()
-    }
+    values: dict[str, dict[str, np.ndarray]] = {name: {} for name in scores}
+    for name, column in product(scores, rhythm.COLUMNS):
+        values[name][column] = np.array([getattr(score, column) for score in scores[name]])
     rows = {
         name: {column: bootstrap_mean(each).as_dict() for column, each in found.items()}
         for name, found in values.items()
     }
-    own = rows["own song"]
-    above = {
-        name: {
-            column: bootstrap_mean(values["own song"][column] - values[name][column]).as_dict()
-            | {"apart": len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]}
-            for column in COLUMNS[:-1]  # of no distance
-        }
-        for name in HELD_AGAINST
-    }
+    own, above = rows["own song"], dict[str, dict[str, Any]]()
+    for name, column in product(HELD_AGAINST, rhythm.COLUMNS[:-1]):  # of no distance
+        gain = bootstrap_mean(values["own song"][column] - values[name][column]).as_dict()
+        apart = len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]
+        above.setdefault(name, {})[column] = {**gain, "apart": apart}
     return {
         "songs": len(dances),
-        "motion_beats": _per_second([dance.motion for dance in dances], dances),
-        "music_beats": _per_second([dance.music for dance in dances], dances),
+        "motion_beats": _per_second([(dance.motion, dance.seconds) for dance in dances]),
+        "music_beats": _per_second([(dance.music, dance.seconds) for dance in dances]),
         "without_beats": sum(len(dance.motion) == 0 for dance in dances),
         "rows": rows,
         "above": above,
@@ -121,30 +96,25 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
 
 def song_scores(
     dance: Danced, dances: Sequence[Danced], rng: np.random.Generator
-) -> dict[str, Rhythm]:
+) -> dict[str, rhythm.Rhythm]:
     """One motion against its own song and everything else."""
-    own, chance, off = against_chance(dance.motion, dance.music, dance.seconds, rng)
+    own, chance, off = rhythm.against_chance(dance.motion, dance.music, dance.seconds, rng)
     scores = {"own song": own, "chance": chance, "half a beat later": off}
     strangers = [other for other in dances if other.song != dance.song]
-    scores["another song"] = Rhythm(*[math.nan] * len(COLUMNS))
-    if strangers:
-        drawn = [strangers[k] for k in rng.permutation(len(strangers))[:OTHERS]]
-        scores["another song"] = mean_rhythm(
-            [rhythm(dance.motion, o.music, min(dance.seconds, o.seconds)) for o in drawn]
-        )
-    return scores
+    drawn = [strangers[k] for k in rng.permutation(len(strangers))[:OTHERS]]
+    theirs = [rhythm.rhythm(dance.motion, o.music, min(dance.seconds, o.seconds)) for o in drawn]
+    nothing = rhythm.Rhythm(*[math.nan] * len(rhythm.COLUMNS))
+    return scores | {"another song": rhythm.mean_rhythm(theirs) if theirs else nothing}
 
 
-def _per_second(beats: Sequence[np.ndarray], dances: Sequence[Danced]) -> float:
+def _per_second(songs: Sequence[tuple[np.ndarray, float]]) -> float:
     """Beats a second over all songs."""
-    seconds = sum(dance.seconds for dance in dances)
-    inside = zip(beats, dances, strict=True)
-    count = sum(int(((b >= 0) & (b < dance.seconds)).sum()) for b, dance in inside)
+    seconds = sum(length for _, length in songs)
+    count = sum(int(((beats >= 0) & (beats < length)).sum()) for beats, length in songs)
     return count / seconds if seconds else math.nan
 
 
 # ---------------------------------------------------------------- the phase of a song
-
 
 TEMPO_TOLERANCE = 0.04  # the usual one
 
@@ -163,12 +133,11 @@ def right_tempo(piece: Piece) -> bool:
 def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, Estimate]:
     """`song_phase` over songs, each column with its interval.
 
-    Args:
-        songs: what is true, and unwrapped bars [T] in the tracker's meter.
+    `songs`: what is true, and unwrapped bars [T] in the tracker's meter.
     """
     return bootstrap_columns(
         [
-            song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
+            rhythm.song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)
             for piece, bars in songs
             if piece.bars is not None
         ]
@@ -180,21 +149,16 @@ LINES = {"truth": ("black", "-"), "beat tracker": ("tab:blue", ":"), "generated"
 
 def plot_phase(piece: Piece, trajectory: MotionTrajectory, path: str | Path) -> Path:
     """Bar phases over the beats, and the pelvis's speed with its beats, over seconds.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
+    Raises UserError: matplotlib is missing, or the file cannot be written."""
     curves = {"truth": piece.bars, "beat tracker": piece.phase}
     curves["generated"] = trajectory.phase_unwrapped
-    found = motion_beats(trajectory.position, trajectory.fps)
+    found = rhythm.motion_beats(trajectory.position, trajectory.fps)
     beats = piece.beats[piece.beats < piece.seconds]
     figure = new_figure(14, 6)
     upper, lower = figure.subplots(2, 1, sharex=True)
     for axes in (upper, lower):
         axes.vlines(beats, 0, 1, transform=axes.get_xaxis_transform(), color="0.8", lw=1)
-    for name, bars in curves.items():
-        if bars is None:
-            continue
+    for name, bars in ((name, bars) for name, bars in curves.items() if bars is not None):
         colour, style = LINES[name]
         phase = np.asarray(bars, np.float64) % 1.0
         phase[1:][np.diff(phase) < -0.5] = np.nan  # no line through the bar

@@ -9,9 +9,9 @@ Letters: T frames, N songs.
 """
 
 import io
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, replace
-from functools import cache, cached_property, partial
+from functools import cached_property, partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,7 @@ from ...data.phrases.dataset import MotionPhraseDataset
 from ...errors import UserError
 from ...formats.arrays import write_trajectory_npz
 from ...io.files import atomic_write
-from ...metrics.rhythm import against_chance, phase_error, strangers
+from ...metrics.rhythm import against_chance, phase_error
 from ...metrics.sanity import frozen
 from ...metrics.seams import Seamed, marked, seam_report
 from ...model.audio.audio_motion_model import AudioMotionModel
@@ -34,15 +34,9 @@ from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
-from ..samples import Dance, DanceSample, Trajectories, untrained_audio_model
-from ..tables import Column, Grid, GridRow
-from .alignment import (
-    alignment_grids,
-    danced,
-    phase_row,
-    plot_phase,
-    right_tempo,
-)
+from ..samples import Dance, DanceSample, Memo, Trajectories, untrained_audio_model
+from ..tables import Grid, GridRow, Report
+from .alignment import alignment_grids, danced, phase_row, plot_phase, right_tempo
 from .songs import (
     TEMPI,
     Piece,
@@ -55,6 +49,8 @@ from .songs import (
 )
 
 Made = list[tuple[Piece, MotionTrajectory]]
+Counted = list[tuple[Piece, np.ndarray]]  # unwrapped bars [T] of each song
+UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/s²"}
 
 
 @dataclass(frozen=True)
@@ -76,7 +72,7 @@ class AudioSettings:
 
 @dataclass(frozen=True, eq=False)
 class AudioContext:
-    """Everything a table of the audio branch may draw on; songs and motions are made once."""
+    """A model, songs and motions that are made once, and everything that is measured of them."""
 
     generator: SongGenerator[AudioMotionModel]  # a trained audio branch
     settings: AudioSettings = field(default_factory=AudioSettings)
@@ -86,39 +82,26 @@ class AudioContext:
     # steps, sampler, guidance_scale; left out or None = the model's own
     sampling: Mapping[str, Any] = field(default_factory=dict)
     progress: Progress = lambda text: None  # told what begins
+    memo: Memo = field(default_factory=Memo)
 
     @cached_property
     def sampled(self) -> SongSampling:
         """How motions are sampled, with nothing left to the model."""
         return SongSampling(**self.sampling).resolved(self.generator.model.config)
 
+    @property
+    def amount(self) -> tuple[int, float, int]:
+        """Of held-out songs: number, seconds and seed."""
+        return self.settings.num_songs, self.settings.song_seconds, self.settings.seed
+
     @cached_property
     def pieces(self) -> list[Piece]:
         """Held-out synthetic songs."""
         self.progress(f"{self.settings.num_songs} songs of {self.settings.song_seconds:g} s")
-        return list(held_out_songs(*self._asked, tell_meter=self.settings.tell_meter))
-
-    @property
-    def _asked(self) -> tuple[int, float, int]:
-        return self.settings.num_songs, self.settings.song_seconds, self.settings.seed
-
-    def write_song(self, index: int, path: Path) -> None:
-        """A held-out song as a FLAC file, for the report."""
-        import soundfile
-
-        song = render_song(held_out_specs(*self._asked)[index])
-        sound = io.BytesIO()  # libsndfile does not say what the disk said
-        soundfile.write(sound, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC")
-        with atomic_write(path) as temporary:
-            temporary.write_bytes(sound.getvalue())
+        return list(held_out_songs(*self.amount, tell_meter=self.settings.tell_meter))
 
     def dance(
-        self,
-        piece: Piece,
-        *,
-        replication: int = 0,
-        held: bool = True,
-        generator: SongGenerator[AudioMotionModel] | None = None,
+        self, piece: Piece, *, replication: int = 0, held: bool = True, untrained: bool = False
     ) -> MotionTrajectory:
         """A motion for a song, with noise of its own; not `held`, it counts the phase for itself.
 
@@ -126,43 +109,41 @@ class AudioContext:
         """
         settings = replace(self.sampled, seed=self.settings.seed)
         settings = own_noise(settings, replication, crc32(piece.name.encode()))
-        phase = piece.phase if held else None
-        return (generator or self.generator).generate(
-            piece.condition, phase=phase, settings=settings
-        )[0]
-
-    @cached_property
-    def made(self) -> Callable[[int, bool], Made]:
-        """A motion for each held-out song in a replication, by the model or by `fresh`."""
-        return cache(self._made)
-
-    def _made(self, replication: int, untrained: bool) -> Made:
         generator = self.fresh if untrained else self.generator
-        return [
-            (piece, self.dance(piece, replication=replication, generator=generator))
-            for piece in self.pieces
-        ]
+        phase = piece.phase if held else None
+        return generator.generate(piece.condition, phase=phase, settings=settings)[0]
+
+    def made(self, replication: int, *, untrained: bool = False) -> Made:
+        """A motion for each held-out song in a replication, by the model or by `fresh`."""
+
+        def make() -> Made:
+            dance = partial(self.dance, replication=replication, untrained=untrained)
+            return [(piece, dance(piece)) for piece in self.pieces]
+
+        return self.memo.once(f"made {replication} {untrained}", make)
 
     @cached_property
     def played(self) -> Made:
         """A motion for each sound file."""
-        if self.songs is None:
-            return []
-        made = []
-        for piece in tracks(self.songs, self.settings.track_seconds):
+        made: Made = []
+        pieces = [] if self.songs is None else tracks(self.songs, self.settings.track_seconds)
+        for piece in pieces:
             self.progress(piece.name)
             made.append((piece, self.dance(piece)))
         return made
+
+    @cached_property
+    def fresh(self) -> SongGenerator[AudioMotionModel]:
+        """The same network with fresh weights, the last layer included."""
+        fresh = untrained_audio_model(self.generator.model, self.settings.seed)
+        return SongGenerator(fresh, device=str(self.generator.device))
 
     # ---------------------------------------------------------------- samples
 
     @cached_property
     def split(self) -> MotionPhraseDataset | None:
         """The test split, in windows as long as the songs; None without data.
-
-        Raises:
-            UserError: there is none.
-        """
+        Raises UserError: there is none."""
         if self.data is None:
             return None
         frames = round(self.settings.song_seconds * FPS)
@@ -176,10 +157,7 @@ class AudioContext:
     @cached_property
     def reference(self) -> Trajectories:
         """Real motion of the test split with its music; empty without data.
-
-        Raises:
-            UserError: no phrase of the split has a beat.
-        """
+        Raises UserError: no phrase of the split has a beat."""
         if self.data is None:
             return DanceSample.of([])
         self.progress(f"the test split of {self.data}")
@@ -192,136 +170,161 @@ class AudioContext:
         dances = [Dance(phrase.song, phrase.motion, phrase.beats) for phrase in known]
         return DanceSample(dances, np.arange(len(dances)))
 
-    def generated(self, replication: int) -> Trajectories:
-        """The model's motions on their own songs."""
-        return sample_of(self.made(replication, False))
-
-    def chance(self, replication: int) -> Trajectories:
-        """The same motions, each on another song: what not listening scores."""
-        sample = self.generated(replication)
-        rng = np.random.default_rng([self.settings.seed, 4, replication])
-        return sample.reordered(strangers(len(sample), rng))
+    def sample(self, replication: int, *, untrained: bool = False) -> Trajectories:
+        """Motions on their own songs; no real one belongs to a song that was made up."""
+        made = self.made(replication, untrained=untrained)
+        return DanceSample.of([dance_of(piece, motion) for piece, motion in made])
 
     def frozen_pose(self, replication: int) -> Trajectories:
         """The first pose of each motion held while the music goes on."""
-        return sample_of([(piece, frozen(motion)) for piece, motion in self.made(0, False)])
+        return DanceSample.of([dance_of(piece, frozen(motion)) for piece, motion in self.made(0)])
 
-    def untrained(self, replication: int) -> Trajectories:
-        """Motions of the same network with fresh weights."""
-        return sample_of(self.made(replication, True))
+    def bench(self) -> Bench[Trajectories]:
+        """The songs: real motion where there is data, its floors, and what the model makes."""
+        few, seed = self.settings.untrained, self.settings.seed
+        known = None if self.data is not None else 0
+        return Bench(
+            "songs",
+            "held-out songs",
+            lambda: self.reference,
+            [
+                Row("real", lambda replication: self.reference, known, fixed=True, real=True),
+                Row("chance", lambda run: self.sample(run).on_other_songs(seed, run)),
+                Row("frozen pose", self.frozen_pose, limit=1, fixed=True),
+                Row("generated", self.sample),
+                Row("untrained", partial(self.sample, untrained=True), limit=few),
+            ],
+            AUDIO_FAMILIES,
+            write=self.write,
+            worst=self.settings.worst,
+        )
 
-    @cached_property
-    def fresh(self) -> SongGenerator[AudioMotionModel]:
-        """The same network with fresh weights, the last layer included."""
-        fresh = untrained_audio_model(self.generator.model, self.settings.seed)
-        return SongGenerator(fresh, device=str(self.generator.device))
+    def write(self, sample: Trajectories, row: int, path: Path) -> dict[str, Any]:
+        """A motion of the main row under its song's name and, beside it, the song as FLAC."""
+        import soundfile
 
+        dance, beside = sample.dances[row], path.with_suffix(".flac")
+        song = render_song(held_out_specs(*self.amount)[row])
+        sound = io.BytesIO()  # libsndfile does not say what the disk said
+        soundfile.write(sound, song.samples, song.sample_rate, subtype="PCM_16", format="FLAC")
+        with atomic_write(beside) as temporary:
+            temporary.write_bytes(sound.getvalue())
+        write_trajectory_npz(dance.motion, path)
+        file = f"{path.parent.name}/{beside.name}"
+        return {"title": dance.song, "meter": dance.counted, "sound": file}
 
-def sample_of(made: Sequence[tuple[Piece, MotionTrajectory]]) -> Trajectories:
-    """Motions on songs as a sample; no real motion belongs to a song that was made up."""
-    return DanceSample.of([dance_of(piece, motion) for piece, motion in made])
+    def draw(self, folder: Path) -> list[dict[str, Any]]:
+        """Phases against beats of the first songs and of each sound file, as pictures."""
+        pictures = []
+        shown = [*self.made(0)[: self.settings.pictures], *self.played]
+        for number, pair in enumerate(shown, start=1):
+            name = f"phase-{number:02d}.png"
+            plot_phase(*pair, folder / name)
+            pictures.append({"file": name, "title": f"phase and beats: {pair[0].name}"})
+        return pictures
 
+    # ---------------------------------------------------------------- tables with rows of their own
 
-# ---------------------------------------------------------------- tables with rows of their own
+    def phase(self) -> list[Grid]:
+        """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
+        made, rng = self.made(0), np.random.default_rng([self.settings.seed, 1])
+        counted = self._counted("own count")
+        blind: Counted = []
+        if self.settings.untrained:
+            blind = self._counted("untrained, own count", untrained=True)
+        own = [(piece, motion.phase_unwrapped) for piece, motion in made]
+        tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
+        groups: dict[str, Counted] = {
+            "generated": own,
+            "beat tracker": tracked,
+            "generated, right tempo": [pair for pair in own if right_tempo(pair[0])],
+            "beat tracker, right tempo": [pair for pair in tracked if right_tempo(pair[0])],
+            "own count": counted,
+            "untrained, own count": blind,
+            "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
+        }
+        rows = {n: GridRow(phase_row(group), len(group), 1) for n, group in groups.items() if group}
+        return [Grid.of("phase of a song", rows, name="phase")]
 
+    def _counted(self, name: str, *, untrained: bool = False) -> Counted:
+        """Bars [T] that a network counts for itself, of the first songs."""
+        asked = self.pieces[: self.settings.own_count]
+        counted: Counted = []
+        for number, piece in enumerate(asked, start=1):
+            self.progress(f"{name}, song {number} of {len(asked)}")
+            motion = self.dance(piece, held=False, untrained=untrained)
+            counted.append((piece, motion.phase_unwrapped))
+        return counted
 
-PHASE = (
-    Column("beat", "beat |error|"), Column("beat_seconds", "in seconds"),
-    Column("bar", "bar |error|"), Column("beat_offset", "beat offset"),
-    Column("steady", "steadiness"),
-)  # fmt: skip
-TRACK = (
-    Column("tempo", "BPM", 1), Column("meter", "meter", 0), Column("confidence", "confidence", 2),
-    Column("phase_from_tracker", "phase off tracker"), Column("motion_to_music", "motion→music"),
-    Column("music_to_motion", "music→motion"), Column("f", "F"), Column("chance", "chance F"),
-    Column("half", "half-beat F"),
-)  # fmt: skip
-UNITS = {"acceleration": "m/s²", "jerk": "m/s³", "angular_acceleration": "rad/s²"}
-NOTES = {
-    "phase": "Cycles; guessing scores 0.25. The first replication. generated: where the tracker"
-    " finds beats its phase is taken over, so the rows agree; right tempo: songs whose tempo the"
-    " tracker found within 4%; own count: the same network, not held; chance: the tracker's phase"
-    " moved by a random offset a song. No real row: of real phrases nobody knows more than the"
-    " tracker. ± is 95% over songs.",
-    "seams": "The first replication. Ratio of quantiles at seams and elsewhere, [95% bootstrap"
-    " over songs]; (null: the same marks at random places). KS: largest distance of the"
-    " distributions, p from the null. The null is chance; real motion is not made of windows, so"
-    " it has no seams, and what it would score is 1.",
-    "jumps": "The extremes elsewhere in the same songs stand for real and chance.",
-    "tracks": "Descriptive: nobody knows these songs' beats, the tracker's stand in, and nobody"
-    " danced to them, so there is no real row. chance: the motion turned round by random times."
-    " Untrained: see the held-out songs.",
-}
+    def alignment(self) -> list[Grid]:
+        """Generated, real and untrained motion on their own songs, and on what must score less."""
+        samples = {"generated": self.sample(0)}
+        if self.settings.untrained:
+            samples["untrained"] = self.sample(0, untrained=True)
+        if len(self.reference):
+            samples["real"] = self.reference
+        found = {name: danced(sample, "beats", beats_of) for name, sample in samples.items()}
+        return alignment_grids(found, self.settings.seed)
 
+    def seams(self) -> list[Grid]:
+        """Accelerations at seams between windows against everywhere else."""
+        made = {"": self.made(0)}
+        if self.settings.untrained:
+            made["untrained"] = self.made(0, untrained=True)
+        tables: list[Grid] = []
+        window, overlap = self.sampled.window, self.sampled.overlap
+        assert window is not None  # resolved
+        for name, motions in made.items():
+            songs = [Seamed(m, seam_frames(m.num_frames, window, overlap)) for _, m in motions]
+            found = seam_report(songs, self.settings.seed)
+            tables += _seams(found, name) if "quantities" in found else []
+        return tables
 
-# ---------------------------------------------------------------- phase
+    def tracks(self) -> list[Grid]:
+        """Sound files against the beats that the tracker heard: descriptive."""
+        seed = self.settings.seed
+        rows = {piece.name[:40]: GridRow(_track(piece, m, seed)) for piece, m in self.played}
+        return [Grid.of("tracks", rows)] if rows else []
 
+    # ---------------------------------------------------------------- what was measured with what
 
-def phase_table(context: AudioContext) -> list[Grid]:
-    """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
-    made, settings = context.made(0, False), context.settings
-    rng = np.random.default_rng([settings.seed, 1])
-    counted = _counted(context, "own count", context.generator)
-    blind = _counted(context, "untrained, own count", context.fresh) if settings.untrained else []
-    own = [(piece, motion.phase_unwrapped) for piece, motion in made]
-    tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
-    groups = {
-        "generated": own,
-        "beat tracker": tracked,
-        "generated, right tempo": [pair for pair in own if right_tempo(pair[0])],
-        "beat tracker, right tempo": [pair for pair in tracked if right_tempo(pair[0])],
-        "own count": counted,
-        "untrained, own count": blind,
-        "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
-    }
-    rows = {
-        name: GridRow(phase_row(group), len(group), 1) for name, group in groups.items() if group
-    }
-    return [Grid("phase", "bar and beat phase, held-out songs", PHASE, rows, NOTES["phase"])]
+    def about(self) -> dict[str, Any]:
+        """Of the model, as it was sampled."""
+        card, config = self.generator.model.card, self.generator.model.config
+        sampled, scale = self.sampled, config.guidance_scale
+        return {
+            "model_hash": card.content_hash[:12],
+            "sampler": sampled.sampler or config.diffusion.sampler,
+            "steps": sampled.steps or config.diffusion.sampling_steps,
+            "guidance_scale": scale if sampled.guidance_scale is None else sampled.guidance_scale,
+            "window": sampled.window,
+            "overlap": sampled.overlap,
+            "data": self.data or "none",
+        }
 
+    def facts(self) -> Part:
+        """What only the songs themselves tell."""
+        number, seconds, _ = self.amount
+        heard = sum(right_tempo(piece) for piece in self.pieces)
+        facts: Part = {
+            "songs": f"{number} synthetic, {seconds:g} s, tempi {TEMPI} BPM",
+            "tempo_heard_right": f"{heard} of {number} songs",
+        }
+        if self.data is not None:
+            facts |= {"data_hash": self.fingerprint[:12], "test_phrases": len(self.reference)}
+        return facts
 
-def _counted(
-    context: AudioContext, name: str, generator: SongGenerator[AudioMotionModel]
-) -> list[tuple[Piece, np.ndarray]]:
-    """Bars [T] that a network counts for itself, of the first songs."""
-    asked = context.pieces[: context.settings.own_count]
-    counted = []
-    for number, piece in enumerate(asked, start=1):
-        context.progress(f"{name}, song {number} of {len(asked)}")
-        counted.append((piece, context.dance(piece, held=False, generator=generator)))
-    return [(piece, motion.phase_unwrapped) for piece, motion in counted]
-
-
-# ---------------------------------------------------------------- beats
-
-
-def alignment_tables(context: AudioContext) -> list[Grid]:
-    """Generated, real and untrained motion on their own songs, and on what must score less."""
-    samples = {"generated": context.generated(0)}
-    if context.settings.untrained:
-        samples["untrained"] = context.untrained(0)
-    if len(context.reference):
-        samples["real"] = context.reference
-    found = {name: danced(sample, "beats", beats_of) for name, sample in samples.items()}
-    return alignment_grids(found, context.settings.seed)
-
-
-# ---------------------------------------------------------------- seams
-
-
-def seam_tables(context: AudioContext) -> list[Grid]:
-    """Accelerations at seams between windows against everywhere else."""
-    made = {"": context.made(0, False)}
-    if context.settings.untrained:
-        made["untrained"] = context.made(0, True)
-    tables: list[Grid] = []
-    window, overlap = context.sampled.window, context.sampled.overlap
-    assert window is not None  # resolved
-    for name, motions in made.items():
-        songs = [Seamed(m, seam_frames(m.num_frames, window, overlap)) for _, m in motions]
-        found = seam_report(songs, context.settings.seed)
-        tables += _seams(found, name) if "quantities" in found else []
-    return tables
+    def sources(self, about: Mapping[str, Any]) -> Sources:
+        """What decides the figures."""
+        folders = {name: about[name] for name in ("model", "decoder") if name in about}
+        network = self.generator.model
+        return Sources(
+            model=model_hashes(folders),
+            data={"pairs": self.fingerprint, "songs": song_hashes(self.songs)},
+            statistics=(network.mean, network.std),
+            sampling=self.sampling,
+            device=str(self.generator.device),
+        )
 
 
 def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
@@ -331,8 +334,7 @@ def seam_frames(num_frames: int, window: int, overlap: int) -> np.ndarray:
 
 
 def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
-    names = [f"{name}/{row}".rstrip("/") for name in ("seams", "jumps")]
-    of = f", {row}" if row else ""
+    end, of = (f"/{row}", f", {row}") if row else ("", "")
     rows = {}
     for name, found in seams["quantities"].items():
         cells = {
@@ -343,32 +345,14 @@ def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
         cells["medians"] = f"{found['seam_p50']:.3g} / {found['elsewhere_p50']:.3g}"
         cells["ks"] = f"{found['ks']['value']:.3f} (p {found['ks']['p']:.2f})"
         rows[f"{name.replace('_', ' ')}, {UNITS[name]}"] = GridRow(cells)
-    columns = (
-        Column("medians", "median at / elsewhere"), Column("p50", "ratio of medians"),
-        Column("p95", "ratio of p95"), Column("ks", "KS"),
-    )  # fmt: skip
-    size = f"{seams['seams']} seams of {seams['songs']} songs, {seams['frames']} frames"
-    yield Grid(names[0], f"seams{of} ({size})", columns, rows, NOTES["seams"], "quantity")
+    yield Grid.of("seams", rows, {**seams, "of": of}, name=f"seams{end}")
     jumps = seams["jumps"]
+    found = "none" if jumps.pop("none") else "FOUND"
     rows = {
         key.replace("_", " "): GridRow({"at": f"{at:.4g}", "elsewhere": f"{other:.4g}"})
-        for key, (at, other) in ((k, v) for k, v in jumps.items() if k != "none")
+        for key, (at, other) in jumps.items()
     }
-    title = f"jumps at seams{of}: {'none' if jumps['none'] else 'FOUND'}"
-    places = (Column("at", "at seams"), Column("elsewhere", "elsewhere"))
-    yield Grid(names[1], title, places, rows, NOTES["jumps"], "extreme")
-
-
-# ---------------------------------------------------------------- sound files
-
-
-def track_table(context: AudioContext) -> list[Grid]:
-    """Sound files against the beats that the tracker heard: descriptive."""
-    rows = {
-        piece.name[:40]: GridRow(_track(piece, motion, context.settings.seed))
-        for piece, motion in context.played
-    }
-    return [Grid("tracks", "real tracks", TRACK, rows, NOTES["tracks"], "track")] if rows else []
+    yield Grid.of("jumps", rows, {"of": of, "found": found}, name=f"jumps{end}")
 
 
 def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, float]:
@@ -377,11 +361,9 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
         return cells
     rng = np.random.default_rng([seed, 3])
     own, chance, off = against_chance(beats_of(trajectory), piece.beats, piece.seconds, rng)
-    error = phase_error(
-        trajectory.phase_unwrapped * piece.meter, np.asarray(piece.phase) * piece.meter
-    )
+    counted, heard = trajectory.phase_unwrapped, np.asarray(piece.phase)
     return cells | {
-        "phase_from_tracker": error.absolute,
+        "phase_from_tracker": phase_error(counted * piece.meter, heard * piece.meter).absolute,
         "motion_to_music": own.motion_to_music,
         "music_to_motion": own.music_to_motion,
         "f": own.f,
@@ -390,125 +372,31 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
     }
 
 
-# ---------------------------------------------------------------- the suite
-
-
 def evaluate_audio(
-    context: AudioContext,
-    *,
-    about: Mapping[str, Any] | None = None,
-    folder: Path | None = None,
-) -> dict[str, Any]:
+    context: AudioContext, *, about: Mapping[str, Any] | None = None, folder: Path | None = None
+) -> Report:
     """The whole report as plain data.
 
     Args:
-        context: the model, songs and amounts.
         about: what to repeat in the report; `model` and `decoder` are names or folders.
         folder: of the report: finished parts are kept there and not measured again.
 
-    Raises:
-        UserError: the data or a song cannot be used, or the folder holds another report.
+    Raises UserError: the data or a song cannot be used, or the folder holds another report.
     """
     about = about or {}
-    tables: dict[str, Callable[[AudioContext], list[Grid]]] = {
-        "phase": phase_table,
-        "alignment": alignment_tables,
-        "seams": seam_tables,
-        "tracks": track_table,
-    }
     suite = Suite(
         "audio",
         asdict(context.settings),
-        [song_bench(context)],
-        {name: partial(make, context) for name, make in tables.items()},
-        {**about, **_about_model(context)},
-        facts=partial(_facts, context),
-        pictures=partial(_draw, context),
-        sources=partial(_sources, context, about),
+        [context.bench()],
+        {
+            "phase": context.phase,
+            "alignment": context.alignment,
+            "seams": context.seams,
+            "tracks": context.tracks,
+        },
+        {**about, **context.about()},
+        facts=context.facts,
+        pictures=context.draw,
+        sources=partial(context.sources, about),
     )
     return run_suite(suite, Parts(folder), context.progress)
-
-
-def song_bench(context: AudioContext) -> Bench[Trajectories]:
-    """The songs: real motion where there is data, chance, a frozen pose, generated, untrained."""
-
-    def real(replication: int = 0) -> Trajectories:
-        return context.reference
-
-    return Bench(
-        "songs",
-        "held-out songs",
-        real,
-        [
-            Row("real", real, None if context.data is not None else 0, fixed=True, real=True),
-            Row("chance", context.chance),
-            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
-            Row("generated", context.generated),
-            Row("untrained", context.untrained, limit=context.settings.untrained),
-        ],
-        AUDIO_FAMILIES,
-        write=partial(_write, context),
-        worst=context.settings.worst,
-    )
-
-
-def _write(context: AudioContext, sample: Trajectories, row: int, path: Path) -> dict[str, Any]:
-    """A motion of the main row under its song's name and, beside it, the song."""
-    dance, sound = sample.dances[row], path.with_suffix(".flac")
-    context.write_song(row, sound)
-    write_trajectory_npz(dance.motion, path)
-    beside = f"{path.parent.name}/{sound.name}"
-    return {"title": dance.song, "meter": dance.counted, "sound": beside}
-
-
-def _draw(context: AudioContext, folder: Path) -> list[dict[str, Any]]:
-    """Phases against beats of the first songs and of each sound file, as pictures."""
-    shown = [*context.made(0, False)[: context.settings.pictures], *context.played]
-    pictures = []
-    for number, pair in enumerate(shown, start=1):
-        name = f"phase-{number:02d}.png"
-        plot_phase(*pair, folder / name)
-        pictures.append({"file": name, "title": f"phase and beats: {pair[0].name}"})
-    return pictures
-
-
-# ---------------------------------------------------------------- what was measured with what
-
-
-def _about_model(context: AudioContext) -> dict[str, Any]:
-    card, config = context.generator.model.card, context.generator.model.config
-    sampled, scale = context.sampled, config.guidance_scale
-    return {
-        "model_hash": card.content_hash[:12],
-        "sampler": sampled.sampler or config.diffusion.sampler,
-        "steps": sampled.steps or config.diffusion.sampling_steps,
-        "guidance_scale": scale if sampled.guidance_scale is None else sampled.guidance_scale,
-        "window": sampled.window,
-        "overlap": sampled.overlap,
-        "data": context.data or "none",
-    }
-
-
-def _facts(context: AudioContext) -> Part:
-    """What only the songs themselves tell."""
-    pieces = context.pieces
-    heard = sum(right_tempo(piece) for piece in pieces)
-    facts: Part = {
-        "songs": f"{len(pieces)} synthetic, {context.settings.song_seconds:g} s, tempi {TEMPI} BPM",
-        "tempo_heard_right": f"{heard} of {len(pieces)} songs",
-    }
-    if context.data is not None:
-        facts |= {"data_hash": context.fingerprint[:12], "test_phrases": len(context.reference)}
-    return facts
-
-
-def _sources(context: AudioContext, about: Mapping[str, Any]) -> Sources:
-    folders = {name: about[name] for name in ("model", "decoder") if name in about}
-    network = context.generator.model
-    return Sources(
-        model=model_hashes(folders),
-        data={"pairs": context.fingerprint, "songs": song_hashes(context.songs)},
-        statistics=(network.mean, network.std),
-        sampling=context.sampling,
-        device=str(context.generator.device),
-    )

@@ -10,7 +10,8 @@ Letters: N motions of one cell.
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
-from typing import Any
+
+from pydantic import TypeAdapter
 
 from ...data.captions.book import CaptionBook
 from ...metrics.measurements import Measurements, measure
@@ -23,14 +24,9 @@ from ..tables import Column, Grid, GridRow
 Labels = dict[str, str]
 Once = Callable[[str, Callable[[], Part]], Part]
 WORDINGS = {"templates": "tmpl", "paraphrases": "para"}  # with their headings
+FROM_JSON = TypeAdapter(list[Measurements])
 NUM_FRAMES = 120  # of each motion
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
-NOTE = (
-    "Success by forward kinematics: prompts of the training templates (tmpl) and paraphrases that"
-    " no training caption repeats (para). real: test clips with these labels; chance: motions made"
-    " for the other tasks; still: the first pose held; untrained: the same network with fresh"
-    " weights, asked the first language's templates. ± is Wilson's 95%."
-)
 
 
 @dataclass
@@ -44,6 +40,11 @@ class Cell:
     versus: list[str]  # prompts of the motions to compare with; empty where the task needs none
     made: list[Measurements] = field(default_factory=list)
     others: list[Measurements] = field(default_factory=list)
+
+    @property
+    def rate(self) -> Estimate:
+        """How much of what was made does what is asked."""
+        return rate(self.task, self.made, self.others)
 
 
 def prompts_of(
@@ -96,15 +97,6 @@ def _measured(cells: Sequence[Cell], sampler: Sampler, seed: int) -> Part:
     return found | {"still": [asdict(measure(frozen_pose(motion))) for motion in first]}
 
 
-def _again(rows: Sequence[Mapping[str, Any]]) -> list[Measurements]:
-    """Measurements from JSON, which has no tuples."""
-    whole: list[dict[str, Any]] = [
-        {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
-        for row in rows
-    ]
-    return [Measurements(**row) for row in whole]
-
-
 def rate(
     task: ControlTask, motions: Sequence[Measurements], others: Sequence[Measurements]
 ) -> Estimate:
@@ -129,8 +121,6 @@ def control_grid(
     """Success rates: a row a task and their mean, a column a language and kind of wording.
 
     Args:
-        sampler: makes motions from prompts.
-        book: templates and held-out paraphrases.
         real: clips for the real row, None for none.
         num_seeds: motions a cell.
         untrained: asked the templates of the first language; None = its column stays empty.
@@ -147,8 +137,8 @@ def control_grid(
 
         found = once(f"controllability.{name}", compute)
         for cell, made, others in zip(own, found["made"], found["others"], strict=True):
-            cell.made, cell.others = _again(made), _again(others)
-        return _again(found["still"])
+            cell.made, cell.others = map(FROM_JSON.validate_python, (made, others))
+        return FROM_JSON.validate_python(found["still"])
 
     still: list[Measurements] = []
     for language in languages:
@@ -166,21 +156,17 @@ def control_grid(
     columns += [Column(name, name, 2) for name in ("real", "chance", "still", "untrained")]
     rates: dict[str, dict[str, Estimate]] = {}
     for task in CONTROL_TASKS:
-        found = {f"{cell.language} {cell.wording}": cell for cell in cells if cell.task is task}
-        rates[task.name] = {key: rate(task, c.made, c.others) for key, c in found.items()} | {
+        rates[task.name] = {
+            **{f"{cell.language} {cell.wording}": cell.rate for cell in cells if cell.task is task},
             "real": _real_rate(task, real),
             "chance": _chance_rate(task, cells),
             "still": rate(task, still, still[1:] + still[:1]),
-            "untrained": next(
-                (rate(task, c.made, c.others) for c in floor if c.task is task), NOTHING
-            ),
+            "untrained": next((cell.rate for cell in floor if cell.task is task), NOTHING),
         }
     keys = [column.key for column in columns]
     rows = {name: GridRow({key: own.get(key) for key in keys}) for name, own in rates.items()}
-    means = {key: _pooled(own[key] for own in rates.values() if key in own) for key in keys}
-    title = f"controllability ({num_seeds} motions a cell)"
-    rows["mean"] = GridRow(means)
-    return Grid("controllability", title, tuple(columns), rows, NOTE, "task")
+    rows["mean"] = GridRow({key: _pooled(rates.values(), key) for key in keys})
+    return Grid.of("controllability", rows, {"num": num_seeds}, columns=tuple(columns))
 
 
 def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
@@ -191,25 +177,23 @@ def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
         fits = [m for m, own in pairs if any(wanted.items() <= own.items() for wanted in labels)]
         return [measure(motion) for motion in fits]
 
-    motions = matching(task.labels)
+    motions, others = matching(task.labels), matching([task.versus]) if task.versus else []
     if task.versus is None:
         return rate(task, motions, [])
-    others = matching([task.versus])
-    pairs = [(a, b) for a in motions for b in others]
-    return rate(task, [a for a, _ in pairs], [b for _, b in pairs])
+    return rate(task, [a for a in motions for _ in others], others * len(motions))
 
 
 def _chance_rate(task: ControlTask, cells: Sequence[Cell]) -> Estimate:
     """The check on motions whose prompts ask for something else; a comparison, both ways round."""
-    foreign = [cell for cell in cells if cell.task is not task and cell.wording == "templates"]
+    foreign = [c.made for c in cells if c.task is not task and c.wording == "templates"]
     if task.compare is None:
-        return rate(task, list(chain.from_iterable(cell.made for cell in foreign)), [])
-    motions = list(chain.from_iterable(zip(*(cell.made for cell in foreign), strict=False)))
+        return rate(task, list(chain.from_iterable(foreign)), [])
+    motions = list(chain.from_iterable(zip(*foreign, strict=False)))
     return rate(task, motions, motions[1:] + motions[:1])
 
 
-def _pooled(rates: Iterable[Estimate]) -> Estimate:
-    """The rate over all tasks, every motion alike."""
-    known = [found for found in rates if found.count]
+def _pooled(rates: Iterable[Mapping[str, Estimate]], key: str) -> Estimate:
+    """A column's rate over all tasks, every motion alike."""
+    known = [own[key] for own in rates if key in own and own[key].count]
     successes = round(sum(found.value * found.count for found in known))
     return success_rate(successes, sum(found.count for found in known))

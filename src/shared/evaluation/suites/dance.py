@@ -10,7 +10,7 @@ channels of the judge.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cache, cached_property, partial
-from itertools import accumulate, cycle, islice, product
+from itertools import accumulate, cycle, product
 from pathlib import Path
 from typing import Any
 from zlib import crc32
@@ -22,7 +22,7 @@ from ...errors import UserError
 from ...formats.arrays import write_npz
 from ...memory.figures import FigureMemory
 from ...metrics.retrieval import rank_of
-from ...metrics.rhythm import body_beats, limb_beats, rhythm, strangers
+from ...metrics.rhythm import body_beats, limb_beats, rhythm
 from ...metrics.seams import ORDERS, body_quantities, compare, marked, starts
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
@@ -39,19 +39,26 @@ from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..evaluator import Evaluator
-from ..families_dance import DANCE_FAMILIES, MOMENTS
+from ..families import DANCE_FAMILIES, MOMENTS
 from ..manifest import Parts, Sources, model_hashes, song_hashes
-from ..samples import Bodies, Dance, DanceSample, held_still, untrained
-from ..stats import bootstrap_mean
-from ..tables import Column, Grid, GridRow
+from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained
+from ..stats import Estimate, bootstrap_columns
+from ..tables import Grid, GridRow, Report
 from .alignment import alignment_grids, danced
-from .editing import EditContext, kept_table, path_table, transition_table
+from .editing import EditContext
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
 
 PROMPTS = (
     "a person dances", "a proud person dances", "a young person dances to the music",
     "an old man dances", "a person dances energetically",
 )  # fmt: skip
+ASKED = (
+    "a person dances", "a proud person dances", "an old man dances", "a tired person dances",
+    "a person walks happily", "a person runs", "a person waves with the right hand",
+    "a person claps",
+)  # fmt: skip
+NOISES = 2  # dances of each prompt
+Dancer = Callable[[int, str, int], Motion]  # song, prompt and noise to a dance
 
 
 @dataclass(frozen=True)
@@ -73,7 +80,7 @@ class DanceSettings:
 
 @dataclass(frozen=True, eq=False)
 class DanceContext:
-    """Everything a table of the performer may draw on; songs, paths and dances are made once."""
+    """Models, songs, paths and dances that are made once, and all that is measured of them."""
 
     generator: TextToMotion  # the text branch
     singer: SongGenerator[AudioMotionModel]  # the audio branch, which makes the paths
@@ -86,39 +93,32 @@ class DanceContext:
     other: TextToMotion | None = None  # another text model, for a row of its own; None = none
     sampling: PerformerSettings = field(default_factory=PerformerSettings)  # of the text branch
     progress: Progress = lambda text: None  # told what begins
-
-    @cached_property
-    def path(self) -> Callable[[int, int], MotionTrajectory]:
-        """The path of a song in a replication, post-processed as it is pinned."""
-        return cache(self._path)
-
-    @cached_property
-    def danced(self) -> Callable[[str, int], Bodies]:
-        """A dance for each song by one of the performers in a replication."""
-        return cache(self._danced)
+    memo: Memo = field(default_factory=Memo)
 
     @cached_property
     def pieces(self) -> list[Piece]:
         """The sound files, then held-out synthetic songs."""
         settings = self.settings
-        self.progress(f"{settings.num_songs} songs of {settings.song_seconds:g} s")
+        amount = settings.num_songs, settings.song_seconds
+        self.progress(f"{amount[0]} songs of {amount[1]:g} s")
         found = [] if self.songs is None else list(tracks(self.songs, settings.track_seconds))
-        return found + list(
-            held_out_songs(settings.num_songs, settings.song_seconds, settings.seed)
-        )
+        return found + list(held_out_songs(*amount, settings.seed))
 
     @property
     def num_tracks(self) -> int:
         """How many of the pieces are sound files."""
         return len(self.pieces) - self.settings.num_songs
 
-    def _path(self, number: int, replication: int) -> MotionTrajectory:
-        piece = self.pieces[number]
-        settings = own_noise(
-            SongSampling(seed=self.settings.seed), replication, crc32(piece.name.encode())
-        )
-        (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
-        return finished(made)
+    def path(self, number: int, replication: int) -> MotionTrajectory:
+        """The path of a song in a replication, post-processed as it is pinned."""
+
+        def make() -> MotionTrajectory:
+            piece, settings = self.pieces[number], SongSampling(seed=self.settings.seed)
+            settings = own_noise(settings, replication, crc32(piece.name.encode()))
+            (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
+            return finished(made)
+
+        return self.memo.once(f"path {number} {replication}", make)
 
     # ---------------------------------------------------------------- bodies
 
@@ -140,14 +140,9 @@ class DanceContext:
         else:
             passages = [Passage(prompt, piece.num_frames)]
             raw = performer.improvise(passages, beats=piece.heard, seed=own).motion
-        return Dance(
-            song=piece.name,
-            motion=lock_carried_feet(raw),
-            beats=piece.beats,
-            raw=raw,
-            path=path,
-            seams=near_seams(raw.num_frames),
-        )
+        seams = near_seams(raw.num_frames)
+        motion = lock_carried_feet(raw)
+        return Dance(piece.name, motion, piece.beats, raw=raw, path=path, seams=seams)
 
     def _own_seed(self, piece: Piece, replication: int) -> int:
         return candidate_seed(self.settings.seed, crc32(piece.name.encode()), replication)
@@ -160,42 +155,42 @@ class DanceContext:
         on_beats = who != "beats not told"
         return Performer(generator, replace(self.sampling, foot_lock=False, on_beats=on_beats))
 
-    def _danced(self, who: str, replication: int) -> Bodies:
-        performer, pinned = self.performer(who), who == "pinned"
-        prompts = islice(cycle(self.settings.prompts), len(self.pieces))
-        return DanceSample.of(
-            [
-                self.perform(performer, number, replication, prompt, pinned=pinned)
-                for number, prompt in enumerate(prompts)
-            ]
-        )
-
     @cached_property
     def fresh(self) -> TextToMotion:
         """The same denoiser without its training."""
         return untrained(self.generator, self.settings.seed)
+
+    def danced(self, who: str, replication: int) -> Bodies:
+        """A dance for each song by one of the performers in a replication."""
+
+        def make() -> Bodies:
+            performer, prompts = self.performer(who), cycle(self.settings.prompts)
+            rows = zip(range(len(self.pieces)), prompts, strict=False)
+            pinned = who == "pinned"
+            return DanceSample.of(
+                [self.perform(performer, n, replication, p, pinned=pinned) for n, p in rows]
+            )
+
+        return self.memo.once(f"danced {who} {replication}", make)
 
     # ---------------------------------------------------------------- samples
 
     @cached_property
     def reference(self) -> Bodies:
         """Real bodies of the test split with their music, and captured dances without; or none.
-
-        Raises:
-            UserError: the split holds no body with a beat, or a dance cannot be read.
-        """
-        frames = round(self.settings.song_seconds * FPS)
-        captured = [] if self.dances is None else list(captured_dances(self.dances, frames))
-        if self.data is None:
-            return DanceSample(captured, np.arange(len(captured)))
-        self.progress(f"the test split of {self.data}")
+        Raises UserError: the split holds no body with a beat, or a dance cannot be read."""
         settings = self.settings
-        dances = real_dances(self.data, frames, settings.max_real, settings.seed)
-        if not dances:
-            raise UserError(
-                f"{self.data}: no test phrase has a body and beats; make the pairs with"
-                " prepare-audio"
-            )
+        frames = round(settings.song_seconds * FPS)
+        captured = [] if self.dances is None else list(captured_dances(self.dances, frames))
+        dances: list[Dance[Motion]] = []
+        if self.data is not None:
+            self.progress(f"the test split of {self.data}")
+            dances = real_dances(self.data, frames, settings.max_real, settings.seed)
+            if not dances:
+                raise UserError(
+                    f"{self.data}: no test phrase has a body and beats; make the pairs with"
+                    " prepare-audio"
+                )
         dances += captured
         return DanceSample(dances, np.arange(len(dances)))
 
@@ -218,12 +213,6 @@ class DanceContext:
                 found.append(Dance(piece.name, lock_feet(made[0]), piece.beats, raw=made[0]))
         return DanceSample.of(found)
 
-    def another_song(self, replication: int) -> Bodies:
-        """The generated dances, each on another song: what not listening scores."""
-        sample = self.danced("generated", replication)
-        rng = np.random.default_rng([self.settings.seed, 4, replication])
-        return sample.reordered(strangers(len(sample), rng))
-
     def frozen_pose(self, replication: int) -> Bodies:
         """The first pose of each dance held where it is."""
         dances = self.danced("generated", 0).dances
@@ -237,31 +226,121 @@ class DanceContext:
             [Dance(p.name, to_motion(path), p.beats, path=path) for p, path in rows]
         )
 
+    def bench(self) -> Bench[Bodies]:
+        """The songs, danced by the model and its floors, and by real dancers where known."""
+        few, danced = self.settings.untrained, self.danced
+        hinted = self.generator.network.generation.constraints
+        known = None if self.data is not None or self.dances is not None else 0
+        seed = self.settings.seed
+        return Bench(
+            "dances",
+            "dances",
+            lambda: self.reference,
+            [
+                Row("real", lambda replication: self.reference, known, fixed=True, real=True),
+                Row("generated", partial(danced, "generated")),
+                Row("figures", self.figured),
+                Row("figures at random", partial(self.figured, at_random=True), limit=few),
+                Row("another song", lambda run: danced("generated", run).on_other_songs(seed, run)),
+                Row("frozen pose", self.frozen_pose, limit=1, fixed=True),
+                Row("pinned", partial(danced, "pinned")),
+                Row("path alone", self.path_alone, limit=1, fixed=True),
+                Row("beats not told", partial(danced, "beats not told"), few if hinted else 0),
+                Row("other model", partial(danced, "other"), few if self.other else 0),
+                Row("untrained", partial(danced, "untrained"), limit=few),
+            ],
+            DANCE_FAMILIES,
+            write=write_body,
+            worst=self.settings.worst,
+        )
 
-def near_seams(frames: int) -> np.ndarray:
-    """True [T] where a window of the body's stream ends, and just around."""
-    cuts = list(accumulate(window_lengths(frames, 0, WINDOW, OVERLAP)))[:-1]
-    return marked(frames, ((cut, cut) for cut in cuts))
+    # ---------------------------------------------------------------- tables with rows of their own
+
+    def alignment(self) -> list[Grid]:
+        """Whole bodies and limbs on their own songs, and on what must score less."""
+        made, number = self.danced("generated", 0), self.num_tracks
+        groups = {"whole-body": made, "limbs alone:": made}
+        if number:
+            groups["sound files, whole-body"] = made.rows(range(number))
+            groups["synthetic songs, whole-body"] = made.rows(range(number, len(made)))
+        heard = [row for row, dance in enumerate(self.reference.dances) if len(dance.beats)]
+        if heard:
+            groups["real whole-body"] = self.reference.rows(heard)
+        found = {}
+        for name, sample in groups.items():
+            key = "limbs_" if name.startswith("limbs") else ""
+            found[name] = danced(sample, key + "beats", MOMENTS[key])
+        return alignment_grids(found, self.settings.seed)
+
+    def seams(self) -> list[Grid]:
+        """Accelerations and jerks where windows of the body meet; nothing without real dances."""
+        if not len(self.reference):
+            return []
+        made = self.danced("generated", 0).dances
+        rows = {"generated": made, "hard cut": hard_cuts(made)}
+        if self.settings.untrained:
+            rows["untrained"] = self.danced("untrained", 0).dances
+        real = [dance.motion for dance in self.reference.dances]
+        return seam_grid(rows, real, self.settings.seed)
+
+    def prompts(self) -> list[Grid]:
+        """Does the prompt change the dance? Nothing without songs to measure on."""
+        songs = list(range(self.num_tracks, len(self.pieces)))[: self.settings.style_songs]
+        if not songs:
+            return []
+        text = self.judge.embed_text(ASKED).numpy()
+        rows = {}
+        for name, dancer in self.dancers().items():
+            self.progress(f"prompts: {name}")
+            embeddings, f, limbs_f = self.dance_all(dancer, songs)
+            rows[name] = GridRow(effect(embeddings, f, limbs_f, text), f.size, 1)
+        words = {"prompts": "; ".join(ASKED), "num": len(ASKED), "noises": NOISES}
+        return [Grid.of("prompts", rows, words | {"songs": len(songs)})]
+
+    def dancers(self) -> dict[str, Dancer]:
+        """Who dances, by the name of the row."""
+
+        def by(performer: Performer) -> Dancer:
+            return lambda song, prompt, noise: (
+                self.perform(performer, song, 0, prompt, seed=noise).motion
+            )
+
+        def alone(song: int, prompt: str, noise: int) -> Motion:
+            seconds = self.path(song, 0).seconds
+            (motion,) = self.generator.generate([prompt], seconds=seconds, seed=noise)
+            return motion
+
+        own = cache(by(self.performer("generated")))
+        found: dict[str, Dancer] = {
+            "generated": own,
+            "words alone": alone,
+            "path alone": lambda song, prompt, noise: to_motion(self.path(song, 0)),
+            "frozen pose": lambda song, prompt, noise: held_still(own(song, ASKED[0], noise)),
+        }
+        if self.settings.untrained:
+            found["untrained"] = by(self.performer("untrained"))
+        return found
+
+    def dance_all(
+        self, dancer: Dancer, songs: Sequence[int]
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Every song to every prompt with every noise: embeddings [S,P,NOISES,W,D], and what beats
+        of bodies and limbs score [S,P·NOISES]."""
+        embeddings, scores, limbs = [], [], []
+        for song, prompt, noise in product(songs, ASKED, range(NOISES)):
+            motion, beats = dancer(song, prompt, noise), self.pieces[song].beats
+            embeddings.append(self.judge.embed_windows(motion))
+            scores.append(rhythm(body_beats(motion), beats, motion.seconds).f)
+            limbs.append(rhythm(limb_beats(motion), beats, motion.seconds).f)
+        shape, flat = (len(songs), len(ASKED), NOISES, *embeddings[0].shape), (len(songs), -1)
+        return np.reshape(embeddings, shape), np.reshape(scores, flat), np.reshape(limbs, flat)
 
 
-# ---------------------------------------------------------------- tables with rows of their own
-
-
-def alignment_tables(context: DanceContext) -> list[Grid]:
-    """Whole bodies and limbs on their own songs, and on what must score less."""
-    made, number = context.danced("generated", 0), context.num_tracks
-    groups = {"whole-body": made, "limbs alone:": made}
-    if number:
-        groups["sound files, whole-body"] = made.rows(range(number))
-        groups["synthetic songs, whole-body"] = made.rows(range(number, len(made)))
-    heard = [row for row, dance in enumerate(context.reference.dances) if len(dance.beats)]
-    if heard:
-        groups["real whole-body"] = context.reference.rows(heard)
-    found = {}
-    for name, sample in groups.items():
-        key = "limbs_" if name.startswith("limbs") else ""
-        found[name] = danced(sample, key + "beats", MOMENTS[key])
-    return alignment_grids(found, context.settings.seed)
+def write_body(sample: Bodies, row: int, path: Path) -> dict[str, Any]:
+    """A dance; its title is the song and what was asked for."""
+    dance = sample.dances[row]
+    write_npz(dance.motion, path)
+    return {"title": f"{dance.song}: {dance.motion.text}"}
 
 
 # ---------------------------------------------------------------- seams of the body's windows
@@ -269,17 +348,12 @@ def alignment_tables(context: DanceContext) -> list[Grid]:
 # seen: a dance of which every window is another dancer's (a hard cut).
 
 SEAM_TOP = 99  # percentile of real motion that nothing at a seam is to pass
-SEAM_COLUMNS = (
-    Column("seam", "p99 at seams", 0), Column("elsewhere", "p99 elsewhere", 0),
-    Column("real", "real p99", 0), Column("beyond_seam", "beyond it at seams %", 2),
-    Column("beyond_elsewhere", "beyond it elsewhere %", 2), Column("ratio", "ratio of medians"),
-)  # fmt: skip
-SEAM_NOTE = (
-    "Of each frame the joint that is worst, over all 22. *real p99*: of the frames of the real"
-    " dances, or of captioned clips without them; real motion is beyond it in 1%. *ratio of"
-    " medians*: at seams over elsewhere, [95% bootstrap over songs] (null: the same marks at random"
-    " places). *hard cut*: from each seam on the pose of another dance."
-)
+
+
+def near_seams(frames: int) -> np.ndarray:
+    """True [T] where a window of the body's stream ends, and just around."""
+    cuts = list(accumulate(window_lengths(frames, 0, WINDOW, OVERLAP)))[:-1]
+    return marked(frames, ((cut, cut) for cut in cuts))
 
 
 def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
@@ -288,10 +362,10 @@ def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
     for number, dance in enumerate(dances):
         other = dances[(number + 1) % len(dances)].motion.quaternions
         frames = min(len(other), dance.motion.num_frames)
-        marks = np.zeros(frames, dtype=int) if dance.seams is None else _windows(dance.seams)
-        taken = (marks[:frames] % 2 == 1)[:, None, None]
-        own = dance.motion.quaternions[:frames]
-        pose = np.where(taken, other[:frames], own)
+        own, window = dance.motion.quaternions[:frames], np.zeros(frames, dtype=int)
+        for start, stop in [] if dance.seams is None else contact_runs(dance.seams, 0):
+            window[(start + stop) // 2 :] += 1  # they change in the middle of seams
+        pose = np.where((window % 2 == 1)[:, None, None], other[:frames], own)
         pose[:, 0] = own[:, 0]  # the path stays
         motion = replace(dance.motion.frames(0, frames), quaternions=pose)
         seams = None if dance.seams is None else dance.seams[:frames]
@@ -299,45 +373,27 @@ def hard_cuts(dances: Sequence[Dance[Motion]]) -> list[Dance[Motion]]:
     return cut
 
 
-def _windows(seams: np.ndarray) -> np.ndarray:
-    """The number [T] of the window that each frame is in, counted in the middle of seams."""
-    number = np.zeros(len(seams), dtype=int)
-    for start, stop in contact_runs(seams, 0):
-        number[(start + stop) // 2 :] += 1
-    return number
-
-
 def seam_grid(
     rows: Mapping[str, Sequence[Dance[Motion]]], real: Sequence[Motion], seed: int
 ) -> list[Grid]:
-    """A row a kind of dance and quantity; nothing where no dance has a seam.
-
-    Args:
-        rows: dances by name.
-        real: motions whose 99th percentile is the limit.
-        seed: of resampling.
-    """
+    """A row a kind of dance (by name) and quantity; nothing where no dance has a seam. The 99th
+    percentile of the `real` motions is the limit."""
+    sizes = [body_quantities(motion) for motion in real]
     limits = {
-        name: float(np.percentile(np.concatenate(values), SEAM_TOP))
-        for name, values in _stacked(real).items()
+        name: float(np.percentile(np.concatenate([each[name] for each in sizes]), SEAM_TOP))
+        for name in ORDERS
     }
     found: dict[str, GridRow] = {}
     for who, dances in rows.items():
-        marked = [(d.motion, d.seams) for d in dances if d.seams is not None and d.seams.any()]
-        sizes = _stacked([motion for motion, _ in marked])
+        marked = [(body_quantities(d.motion), d.seams) for d in dances
+                  if d.seams is not None and d.seams.any()]  # fmt: skip
         for name, limit in limits.items() if marked else ():
-            pairs = list(zip(sizes[name], (seams for _, seams in marked), strict=True))
+            pairs = [(values[name], seams) for values, seams in marked]
             found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
     if not found:
         return []
     number = sum(len(starts(seams)) for _, seams in marked)
-    title = f"seams of the body's windows ({number} seams of {len(marked)} dances)"
-    return [Grid("body-seams", title, SEAM_COLUMNS, found, SEAM_NOTE, "quantity")]
-
-
-def _stacked(motions: Sequence[Motion]) -> dict[str, list[np.ndarray]]:
-    every = [body_quantities(motion) for motion in motions]
-    return {name: [each[name] for each in every] for name in ORDERS}
+    return [Grid.of("body-seams", found, {"seams": number, "dances": len(marked)})]
 
 
 def _cells(
@@ -358,132 +414,30 @@ def _cells(
     }
 
 
-def seam_tables(context: DanceContext) -> list[Grid]:
-    """Accelerations and jerks where windows of the body meet; nothing without real dances."""
-    if not len(context.reference):
-        return []
-    made = context.danced("generated", 0).dances
-    rows = {"generated": made, "hard cut": hard_cuts(made)}
-    if context.settings.untrained:
-        rows["untrained"] = context.danced("untrained", 0).dances
-    real = [dance.motion for dance in context.reference.dances]
-    return seam_grid(rows, real, context.settings.seed)
-
-
-# ---------------------------------------------------------------- does the prompt change the dance?
-
-
-ASKED = (
-    "a person dances", "a proud person dances", "an old man dances", "a tired person dances",
-    "a person walks happily", "a person runs", "a person waves with the right hand",
-    "a person claps",
-)  # fmt: skip
-NOISES = 2  # dances of each prompt
-PROMPT_COLUMNS = (
-    Column("apart", "other prompt", better="high"), Column("same", "other noise"),
-    Column("gain", "difference", better="high"), Column("r_at_1", "R@1", better="high"),
-    Column("r_at_3", "R@3", better="high"), Column("f", "beat F", better="high"),
-    Column("limbs_f", "limbs F", better="high"),
-)  # fmt: skip
-PROMPT_NOTE = (
-    "Song by song only words and noise change. *other prompt*: mean"
-    " distance of the judge's embeddings of dances of two prompts with one noise; *other noise*: of"
-    " one prompt with two noises; *difference*: song by song. *R@k*: the dance's prompt is among"
-    " the k nearest of the prompts used; chance is k over their number. *words alone*: the same"
-    " prompts without a song, which is how far the words go; its beat F is chance. Intervals over"
-    " songs."
-)
-Dancer = Callable[[int, str, int], Motion]  # song, prompt and noise to a dance
-
-
-def prompt_effect(context: DanceContext) -> list[Grid]:
-    """The table; nothing without songs to measure on."""
-    songs = list(range(context.num_tracks, len(context.pieces)))[: context.settings.style_songs]
-    if not songs:
-        return []
-    text = context.judge.embed_text(ASKED).numpy()
-    rows = {}
-    for name, dancer in dancers(context).items():
-        context.progress(f"prompts: {name}")
-        embeddings, f, limbs_f = dance_all(context, dancer, songs)
-        rows[name] = GridRow(effect(embeddings, f, limbs_f, text), f.size, 1)
-    title = f"what the prompt changes ({len(songs)} songs, {len(ASKED)} prompts, {NOISES} noises)"
-    prompts = "; ".join(ASKED)
-    return [Grid("prompts", title, PROMPT_COLUMNS, rows, f"{PROMPT_NOTE} Prompts: {prompts}.")]
-
-
-def dancers(context: DanceContext) -> dict[str, Dancer]:
-    """Who dances, by the name of the row."""
-
-    def by(performer: Performer) -> Dancer:
-        return lambda song, prompt, noise: (
-            context.perform(performer, song, 0, prompt, seed=noise).motion
-        )
-
-    def alone(song: int, prompt: str, noise: int) -> Motion:
-        seconds = context.path(song, 0).seconds
-        (motion,) = context.generator.generate([prompt], seconds=seconds, seed=noise)
-        return motion
-
-    own = cache(by(context.performer("generated")))
-    found: dict[str, Dancer] = {
-        "generated": own,
-        "words alone": alone,
-        "path alone": lambda song, prompt, noise: to_motion(context.path(song, 0)),
-        "frozen pose": lambda song, prompt, noise: held_still(own(song, ASKED[0], noise)),
-    }
-    if context.settings.untrained:
-        found["untrained"] = by(context.performer("untrained"))
-    return found
-
-
-def dance_all(
-    context: DanceContext, dancer: Dancer, songs: Sequence[int]
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Every song to every prompt with every noise.
-
-    Returns:
-        Embeddings [S,P,NOISES,W,D], and what beats of bodies and limbs score [S,P·NOISES].
-    """
-    embeddings, scores, limbs = [], [], []
-    for song, prompt, noise in product(songs, ASKED, range(NOISES)):
-        motion, beats = dancer(song, prompt, noise), context.pieces[song].beats
-        embeddings.append(context.judge.embed_windows(motion))
-        scores.append(rhythm(body_beats(motion), beats, motion.seconds).f)
-        limbs.append(rhythm(limb_beats(motion), beats, motion.seconds).f)
-    shape, flat = (len(songs), len(ASKED), NOISES, *embeddings[0].shape), (len(songs), -1)
-    return np.reshape(embeddings, shape), np.reshape(scores, flat), np.reshape(limbs, flat)
-
-
 def effect(
     embeddings: np.ndarray, f: np.ndarray, limbs_f: np.ndarray, text: np.ndarray
-) -> dict[str, dict[str, float | int]]:
-    """The cells of a row: means over songs with their intervals.
-
-    Args:
-        embeddings, f, limbs_f: what `dance_all` returns.
-        text: the judge's embeddings of the prompts [P,D].
-    """
-    apart, same, first, third = [], [], [], []
-    for song in embeddings.astype(np.float64):  # P NOISES W D
-        prompts, noises, windows, _ = song.shape
-        apart.append(np.mean([pdist(song[:, n, w]) for n in range(noises) for w in range(windows)]))
-        same.append(np.mean([pdist(song[p, :, w]) for p in range(prompts) for w in range(windows)]))
-        ranks = [
-            rank_of(cdist(song[p].reshape(noises * windows, -1), text), p) for p in range(prompts)
-        ]
-        places = np.concatenate(ranks)
-        first.append((places < 1).mean())
-        third.append((places < 3).mean())
-    gain = [a - s for a, s in zip(apart, same, strict=True)]
-    columns = {
-        "apart": apart, "same": same, "gain": gain, "r_at_1": first, "r_at_3": third,
-        "f": f.mean(1), "limbs_f": limbs_f.mean(1),
-    }  # fmt: skip
-    return {key: bootstrap_mean(list(values)).as_dict() for key, values in columns.items()}
-
-
-# ---------------------------------------------------------------- the suite
+) -> dict[str, Estimate]:
+    """The cells of a row: means over songs of what `dance_all` returns, with their intervals;
+    `text`: the judge's embeddings of the prompts [P,D]."""
+    rows = []
+    for song, scores, limbs in zip(embeddings.astype(np.float64), f, limbs_f, strict=True):
+        prompts, noises, windows, width = song.shape
+        apart = np.mean([pdist(song[:, n, w]) for n in range(noises) for w in range(windows)])
+        same = np.mean([pdist(song[p, :, w]) for p in range(prompts) for w in range(windows)])
+        dances = song.reshape(prompts, noises * windows, width)
+        places = np.concatenate([rank_of(cdist(dances[p], text), p) for p in range(prompts)])
+        rows.append(
+            {
+                "apart": float(apart),
+                "same": float(same),
+                "gain": float(apart - same),
+                "r_at_1": float((places < 1).mean()),
+                "r_at_3": float((places < 3).mean()),
+                "f": float(scores.mean()),
+                "limbs_f": float(limbs.mean()),
+            }
+        )
+    return bootstrap_columns(rows)
 
 
 def evaluate_performer(
@@ -492,29 +446,27 @@ def evaluate_performer(
     *,
     about: dict[str, Any] | None = None,
     folder: Path | None = None,
-) -> dict[str, Any]:
+) -> Report:
     """The whole report as plain data.
 
     Args:
-        context: models, songs and amounts.
         edits: of editing; None = not measured.
         about: what to repeat in the report; `model` and `audio_model` are names or folders.
         folder: of the report: finished parts are kept there and not measured again.
 
-    Raises:
-        UserError: the data or a song cannot be used, or the folder holds another report.
+    Raises UserError: the data or a song cannot be used, or the folder holds another report.
     """
-    settings, about = context.settings, about or {}
+    about = about or {}
     tables: dict[str, Callable[[], list[Grid]]] = {
-        "alignment": partial(alignment_tables, context),
-        "seams": partial(seam_tables, context),
-        "prompts": partial(prompt_effect, context),
+        "alignment": context.alignment,
+        "seams": context.seams,
+        "prompts": context.prompts,
     }
     if edits is not None:
         tables |= {
-            "edits": partial(kept_table, edits),
-            "paths": partial(path_table, edits),
-            "transitions": partial(transition_table, edits, context.judge),
+            "edits": edits.kept,
+            "paths": edits.paths,
+            "transitions": partial(edits.transitions, context.judge),
         }
     facts = {
         **about,
@@ -523,48 +475,9 @@ def evaluate_performer(
         "clips": "none" if edits is None else edits.held_out.source,
     }
     sources = partial(_sources, context, edits, about)
-    benches = [dance_bench(context)]
-    suite = Suite("performer", asdict(settings), benches, tables, facts, sources=sources)
+    amount, bench = asdict(context.settings), context.bench()
+    suite = Suite("performer", amount, [bench], tables, facts, sources=sources)
     return run_suite(suite, Parts(folder), context.progress)
-
-
-def dance_bench(context: DanceContext) -> Bench[Bodies]:
-    """The songs, danced by the model, by its floors, and by real dancers where there is data."""
-    few, danced = context.settings.untrained, context.danced
-    hinted = context.generator.network.generation.constraints
-    known = context.data is not None or context.dances is not None
-
-    def real(replication: int = 0) -> Bodies:
-        return context.reference
-
-    return Bench(
-        "dances",
-        "dances",
-        real,
-        [
-            Row("real", real, None if known else 0, fixed=True, real=True),
-            Row("generated", partial(danced, "generated")),
-            Row("figures", context.figured),
-            Row("figures at random", partial(context.figured, at_random=True), limit=few),
-            Row("another song", context.another_song),
-            Row("frozen pose", context.frozen_pose, limit=1, fixed=True),
-            Row("pinned", partial(danced, "pinned")),
-            Row("path alone", context.path_alone, limit=1, fixed=True),
-            Row("beats not told", partial(danced, "beats not told"), limit=few if hinted else 0),
-            Row("other model", partial(danced, "other"), limit=few if context.other else 0),
-            Row("untrained", partial(danced, "untrained"), limit=few),
-        ],
-        DANCE_FAMILIES,
-        write=write_body,
-        worst=context.settings.worst,
-    )
-
-
-def write_body(sample: Bodies, row: int, path: Path) -> dict[str, Any]:
-    """A dance; its title is the song and what was asked for."""
-    dance = sample.dances[row]
-    write_npz(dance.motion, path)
-    return {"title": f"{dance.song}: {dance.motion.text}"}
 
 
 def _sources(context: DanceContext, edits: EditContext | None, about: dict[str, Any]) -> Sources:

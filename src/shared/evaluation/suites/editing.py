@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ...metrics.kinetic import amount
 from ...metrics.physical import jerk_per_speed, support_slide
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
@@ -26,8 +27,9 @@ from ..engine import Progress
 from ..evaluator import Evaluator
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
-from ..tables import Cell, Column, Grid, GridRow
+from ..tables import Cell, Grid, GridRow
 
+WALK = "a person walks"
 MIN_FRAMES, MAX_FRAMES = 90, 150  # of a clip that is edited
 RADIUS = 1.5  # metres of the curved paths
 NEAR = 6  # frames on either side of a border
@@ -39,40 +41,9 @@ ACTIONS = (
     "a person walks backward", "a person squats", "a person runs", "a person bows",
     "a person claps",
 )  # fmt: skip
-KEPT = (
-    Column("rotation", "kept rotations, max", 6, "low"),
-    Column("root", "kept root, max", 6, "low"),
-    Column("position", "kept joints, max mm", 3, "low"),
-    Column("changed", "changed cm"),
-    Column("border", "p99 at borders m/s²", 0), Column("real", "real p99", 0),
-    Column("beyond", "beyond it %", 2, "low"),
-)  # fmt: skip
-PATH = (
-    Column("mean", "from the path, mean cm", 2, "low"), Column("max", "max cm", 2, "low"),
-    Column("line", "from the line, mean cm", 2, "low"), Column("limb_speed", "limb speed m/s", 2),
-    Column("support", "slide, support cm/s", 1, "low"), Column("rough", "jerk / speed 1/s²", 0),
-)  # fmt: skip
-TRANSITION = (
-    Column("near", "p99 at the change m/s²", 0), Column("elsewhere", "p99 elsewhere", 0),
-    Column("real", "real p99", 0), Column("beyond", "beyond it at the change %", 2, "low"),
-    Column("before", "R@1 before", better="high"), Column("after", "R@1 after", better="high"),
-)  # fmt: skip
-NOTES = {
-    "kept": "Real clips with a part made anew. *kept*: the largest difference over all clips of"
-    " what was to stay (6D entries; m/s, rad/s and m; mm seen from the pelvis in frames kept"
-    " whole). *changed*: mean distance of a joint from the clip in edited frames; who hands the"
-    " clip back has 0. *borders*: the largest acceleration of a joint within 6 frames of what is"
-    " kept; *real p99* of whole real clips. *another clip's poses*: cut in.",
-    "path": "Where the pelvis is to be in each frame, and the nearest point of the line as drawn."
-    " The path is pinned, so whatever is carried keeps to it, an untrained body too: *limb speed*,"
-    " *slide* and *jerk / speed* tell them apart. *words alone*: the prompt without the path, from"
-    " its beginning.",
-    "transitions": f"Two actions of {HALF} frames, one text after the other. *at the change*: the"
-    f" largest acceleration of a joint within {AROUND} frames of it. *R@1*: the separate evaluator"
-    f" finds the action asked for among {len(ACTIONS)}, in the frames of each. *hard cut*: the same"
-    " two actions made apart and put one after the other.",
-}
-REDONE = {"left arm": ("left-arm",), "upper body": ("upper-body",), "a second": None}
+Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
+Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
+REDONE = {"left arm": "left-arm", "upper body": "upper-body", "a second": None}  # joint groups
 
 
 @dataclass(frozen=True)
@@ -88,7 +59,7 @@ class EditSettings:
 
 @dataclass(frozen=True, eq=False)
 class EditContext:
-    """Everything the tables of editing draw on: real clips, models, pairs of actions."""
+    """Real clips, models, pairs of actions, and the tables of editing."""
 
     generator: TextToMotion  # the text branch
     held_out: HeldOut  # clips that no training saw
@@ -98,10 +69,7 @@ class EditContext:
     @cached_property
     def clips(self) -> Clips:
         """Real clips to edit, of at least three seconds, spread over label groups.
-
-        Raises:
-            UserError: there is none.
-        """
+        Raises UserError: there is none."""
         return self._real(self.settings.num, MIN_FRAMES)
 
     @cached_property
@@ -110,14 +78,10 @@ class EditContext:
         real = self._real(self.settings.max_real, 16).motions
         return float(np.percentile(np.concatenate([accelerations(m) for m in real]), TOP))
 
-    def _real(self, number: int, min_frames: int) -> Clips:
+    def _real(self, number: int, least: int) -> Clips:
+        data, clips, seed = self.held_out.data, self.held_out.everything, self.settings.seed
         return real_clips(
-            self.held_out.data,
-            self.held_out.everything,
-            num=number,
-            min_frames=min_frames,
-            max_frames=MAX_FRAMES,
-            seed=self.settings.seed,
+            data, clips, num=number, min_frames=least, max_frames=MAX_FRAMES, seed=seed
         )
 
     @cached_property
@@ -147,80 +111,123 @@ class EditContext:
             "beyond": 100 * float((sizes > self.limit).mean()),
         }
 
+    # ---------------------------------------------------------------- tables
+
+    def kept(self) -> list[Grid]:
+        """A row a kind of edit, and floors."""
+        rows = {}
+        for who, generator in self.generators.items():
+            for kind in ("between ends", *REDONE):
+                self.progress(f"edits: {kind}, {who}")
+                made = []
+                for clip, given, text, seed in self._tasks(kind):
+                    motion = edited(generator, text, given, Sampling(seed=seed)).motion
+                    made.append((motion, clip, given))
+                rows[f"{kind}: {who}"] = self._kept_row(made)
+        tasks = [(clip, given) for clip, given, _, _ in self._tasks("a second")]
+        back = [(clip, clip, given) for clip, given in tasks]
+        others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
+        rows["a second: clip handed back"] = self._kept_row(back)
+        rows["a second: another clip's poses"] = self._kept_row(others)
+        return [Grid.of("edits", rows, {"clips": len(tasks)})]
+
+    def _tasks(self, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
+        """Clip, what is kept of it, the text for the rest and a seed."""
+        for index, clip in enumerate(self.clips.motions):
+            frames, group = clip.num_frames, REDONE.get(kind)
+            if kind == "between ends":
+                given = keep_ends(clip, clip, 30, frames, rejoin=True)
+            else:
+                joints = None if group is None else set(GROUPS[group])
+                given = redo(clip, frames // 2 - 15, frames // 2 + 15, joints)
+            yield clip, given, self.clips.captions[index], self.settings.seed + index
+
+    def _kept_row(self, made: Sequence[Edit]) -> GridRow:
+        figures = [kept_figures(*each) for each in made]
+        borders = []
+        for motion, _, given in made:  # where something stops or begins to be known
+            known = given.constraint.known[:, :-1].flatten(1).numpy()
+            places = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
+            near = marked(motion.num_frames, ((place, place) for place in places), NEAR)
+            borders.append(accelerations(motion)[near])
+        cells: dict[str, Cell] = {}
+        for key in ("rotation", "root", "position"):
+            sizes = [each[key] for each in figures if not np.isnan(each[key])]
+            cells |= {key: max(sizes)} if sizes else {}
+        cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
+        return GridRow(cells | self.against(np.concatenate(borders), "border"), len(made), 1)
+
+    def paths(self) -> list[Grid]:
+        """A row a shape and a maker."""
+        rows = {}
+        number = self.settings.repeats
+        seeds = np.random.SeedSequence(self.settings.seed).generate_state(number).tolist()
+        for shape, drawn in drawn_paths().items():
+            for who, generator in self.generators.items():
+                self.progress(f"paths: {shape}, {who}")
+                made = [_follow(generator, drawn, seed) for seed in seeds]
+                rows[f"{shape}: {who}"] = _path_row(made)
+            still, free = [], []
+            for seed, (motion, points, _) in enumerate(made):
+                still.append((held_still(motion), points, drawn))
+                (alone,) = self.generator.generate([WALK], seconds=motion.seconds, seed=seed)
+                free.append((alone, points, drawn))
+            rows[f"{shape}: frozen pose"] = _path_row(still)
+            rows[f"{shape}: words alone"] = _path_row(free)
+        return [Grid.of("paths", rows, {"num": number})]
+
+    def transitions(self, judge: Evaluator) -> list[Grid]:
+        """One action after the other."""
+        seed, pairs, made = self.settings.seed, self.pairs, dict[str, list[Motion]]()
+        for who, generator in self.generators.items():
+            self.progress(f"transitions: {who}")
+            made[who], sentences = [], SentenceGenerator(generator)
+            for k, pair in enumerate(pairs):
+                timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
+                made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
+        self.progress("transitions: hard cut")
+        made["hard cut"] = []  # what a transition looks like that nobody made
+        for k, pair in enumerate(pairs):
+            first, second = self.generator.generate(pair, seconds=HALF / 30, seed=seed + k)
+            second = moved_to(second, place_of(first, first.num_frames - 1))
+            made["hard cut"].append(joined(first, second))
+        made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
+        rows = {who: self._transition_row(motions, judge) for who, motions in made.items()}
+        words = {"pairs": len(pairs), "HALF": HALF, "AROUND": AROUND, "actions": len(ACTIONS)}
+        return [Grid.of("transitions", rows, words)]
+
+    def _transition_row(self, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
+        text = judge.embed_text(ACTIONS).numpy()
+        sizes = [accelerations(motion) for motion in motions]
+        change = np.concatenate([values[HALF - AROUND : HALF + AROUND] for values in sizes])
+        rest = [np.delete(each, slice(HALF - AROUND, HALF + AROUND)) for each in sizes]
+        cells = self.against(change, "near")
+        cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
+        for which, key in enumerate(("before", "after")):
+            hits = []
+            for motion, pair in zip(motions, self.pairs, strict=True):
+                seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
+                distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
+                hits.append((rank_of(distances, ACTIONS.index(pair[which])) < 1).mean())
+            cells[key] = bootstrap_mean(hits)
+        return GridRow(cells, len(motions), 1)
+
 
 def accelerations(motion: Motion) -> np.ndarray:
     """Of each frame [T] the largest acceleration of a joint in m/s²; 0 at the ends."""
     return body_quantities(motion)[ACCELERATION]
 
 
-# ---------------------------------------------------------------- what is kept
-
-Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
-
-
-def kept_table(context: EditContext) -> list[Grid]:
-    """A row a kind of edit, and floors."""
-    rows = {}
-    for who, generator in context.generators.items():
-        for kind in ("between ends", *REDONE):
-            context.progress(f"edits: {kind}, {who}")
-            made = []
-            for clip, given, text, seed in _tasks(context, kind):
-                motion = edited(generator, text, given, Sampling(seed=seed)).motion
-                made.append((motion, clip, given))
-            rows[f"{kind}: {who}"] = _kept_row(context, made)
-    tasks = [(clip, given) for clip, given, _, _ in _tasks(context, "a second")]
-    back = [(clip, clip, given) for clip, given in tasks]
-    others = [(_with_poses(c, tasks[k - 1][0], g), c, g) for k, (c, g) in enumerate(tasks)]
-    rows["a second: clip handed back"] = _kept_row(context, back)
-    rows["a second: another clip's poses"] = _kept_row(context, others)
-    title = f"edits of {len(tasks)} real clips"
-    return [Grid("edits", title, KEPT, rows, NOTES["kept"], "edit")]
-
-
-def _tasks(context: EditContext, kind: str) -> Iterator[tuple[Motion, Given, str, int]]:
-    """Clip, what is kept of it, the text for the rest and a seed."""
-    clips = context.clips
-    for index, clip in enumerate(clips.motions):
-        frames = clip.num_frames
-        joints = REDONE.get(kind)
-        if kind == "between ends":
-            given = keep_ends(clip, clip, 30, frames, rejoin=True)
-        else:
-            chosen = None if joints is None else {name for key in joints for name in GROUPS[key]}
-            given = redo(clip, frames // 2 - 15, frames // 2 + 15, chosen)
-        yield clip, given, clips.captions[index], context.settings.seed + index
-
-
-def _kept_row(context: EditContext, made: Sequence[Edit]) -> GridRow:
-    figures = [kept_figures(*each) for each in made]
-    borders = [accelerations(motion)[near_borders(motion, given)] for motion, _, given in made]
-    cells: dict[str, Cell] = {}
-    for key in ("rotation", "root", "position"):
-        values = np.array([each[key] for each in figures])
-        if not np.isnan(values).all():
-            cells[key] = float(np.nanmax(values))
-    cells["changed"] = bootstrap_mean([each["changed"] for each in figures])
-    return GridRow(cells | context.against(np.concatenate(borders), "border"), len(made), 1)
-
-
 def kept_figures(motion: Motion, clip: Motion, given: Given) -> dict[str, float]:
-    """How an edit compares with the clip that it was made of; both of T frames.
-
-    Returns:
-        rotation: largest difference of a kept entry of the 6D rotations.
-        root: the same of the root row's velocities (m/s, rad/s) and height (m).
-        position: largest distance in mm of a joint in frames that are kept whole, place apart in
-            what comes after the edit; NaN without such frames.
-        changed: mean distance in cm of a joint from where the clip has it, in edited frames; 0 for
-            who hands the clip back.
-    """
+    """How an edit compares with the clip that it was made of; both of T frames."""
     errors = kept_error(motion, given.constraint)
     whole = given.constraint.known.flatten(1).all(1).numpy()  # T
     apart = np.linalg.norm(from_pelvis(motion) - from_pelvis(clip), axis=-1)  # T K
     return {
-        "rotation": errors["rotation"],
-        "root": errors["root"],
+        "rotation": errors["rotation"],  # largest difference of a kept entry of the 6D rotations
+        "root": errors["root"],  # the same of the root row: m/s, rad/s, and m of height
+        # largest distance in mm of a joint in frames that are kept whole, place apart in what
+        # comes after the edit; mean distance in cm of a joint from the clip in edited frames
         "position": 1000 * float(apart[whole].max()) if whole.any() else float("nan"),
         "changed": 100 * float(apart[~whole].mean()) if (~whole).any() else float("nan"),
     }
@@ -233,46 +240,12 @@ def from_pelvis(motion: Motion) -> np.ndarray:
     return np.concatenate((seen_from_pelvis(motion), height), axis=1)
 
 
-def near_borders(motion: Motion, given: Given) -> np.ndarray:
-    """True [T] around the frames at which something stops or begins to be known."""
-    known = given.constraint.known[:, :-1].flatten(1).numpy()
-    borders = (1 + np.flatnonzero((known[1:] != known[:-1]).any(1))).tolist()
-    return marked(motion.num_frames, ((each, each) for each in borders), NEAR)
-
-
 def _with_poses(clip: Motion, other: Motion, given: Given) -> Motion:
     """A clip with another one's poses in the frames that are to be made anew."""
     where = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
     pose = clip.quaternions.copy()
     pose[where, 1:] = other.quaternions[where % other.num_frames, 1:]
     return replace(clip, quaternions=pose)
-
-
-# ---------------------------------------------------------------- paths
-
-Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
-
-
-def path_table(context: EditContext) -> list[Grid]:
-    """A row a shape and a maker."""
-    rows = {}
-    number = context.settings.repeats
-    seeds = np.random.SeedSequence(context.settings.seed).generate_state(number).tolist()
-    for shape, drawn in drawn_paths().items():
-        for who, generator in context.generators.items():
-            context.progress(f"paths: {shape}, {who}")
-            made = [_follow(generator, drawn, seed) for seed in seeds]
-            rows[f"{shape}: {who}"] = _path_row(made)
-        still, free = [], []
-        for seed, (motion, points, _) in enumerate(made):
-            still.append((held_still(motion), points, drawn))
-            words = ["a person walks"]
-            (alone,) = context.generator.generate(words, seconds=motion.seconds, seed=seed)
-            free.append((alone, points, drawn))
-        rows[f"{shape}: frozen pose"] = _path_row(still)
-        rows[f"{shape}: words alone"] = _path_row(free)
-    title = f"drawn paths ({number} motions each)"
-    return [Grid("paths", title, PATH, rows, NOTES["path"], "path")]
 
 
 def drawn_paths() -> dict[str, DrawnPath]:
@@ -288,7 +261,7 @@ def drawn_paths() -> dict[str, DrawnPath]:
 
 def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
     settings = Sampling(seed=seed % 2**31)
-    passage = Passage("a person walks", 1)
+    passage = Passage(WALK, 1)
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
     speed, facing, _ = natural_gait(generator, passage, settings)
     path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
@@ -301,66 +274,16 @@ def _path_row(made: Sequence[Followed]) -> GridRow:
         ground = motion.root_position[:, [0, 2]].astype(np.float64)
         frames = min(len(ground), len(points))
         apart = np.linalg.norm(ground[:frames] - points[:frames], axis=1)
-        steps = np.linalg.norm(np.diff(seen_from_pelvis(motion), axis=0), axis=-1)
         joints, fps = motion.positions().astype(np.float64), motion.fps
         rows.append(
             {
                 "mean": 100 * float(apart.mean()),
                 "max": 100 * float(apart.max()),
                 "line": 100 * float(distances_to_line(ground, drawn.points).mean()),
-                "limb_speed": float(steps.mean() * fps),
+                "limb_speed": amount(seen_from_pelvis(motion), fps),
                 "support": support_slide(joints, fps),
                 "rough": jerk_per_speed(joints, fps),
             }
         )
     furthest = max(row["max"] for row in rows)
     return GridRow({**bootstrap_columns(rows), "max": furthest}, len(made), 1)
-
-
-# ---------------------------------------------------------------- transitions
-
-
-def transition_table(context: EditContext, judge: Evaluator) -> list[Grid]:
-    """One action after the other."""
-    seed, pairs, made = context.settings.seed, context.pairs, dict[str, list[Motion]]()
-    for who, generator in context.generators.items():
-        context.progress(f"transitions: {who}")
-        made[who], sentences = [], SentenceGenerator(generator)
-        for k, pair in enumerate(pairs):
-            timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
-            made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
-    context.progress("transitions: hard cut")
-    made["hard cut"] = [
-        hard_cut(*context.generator.generate(pair, seconds=HALF / 30, seed=seed + k))
-        for k, pair in enumerate(pairs)
-    ]
-    made["frozen pose"] = [held_still(motion) for motion in made["generated"]]
-    rows = {who: _transition_row(context, motions, judge) for who, motions in made.items()}
-    title = f"transitions ({len(pairs)} pairs of actions)"
-    return [Grid("transitions", title, TRANSITION, rows, NOTES["transitions"])]
-
-
-def hard_cut(first: Motion, second: Motion) -> Motion:
-    """Two motions one after the other: the second goes on from the place of the first's end.
-
-    What a transition looks like that nobody made.
-    """
-    return joined(first, moved_to(second, place_of(first, first.num_frames - 1)))
-
-
-def _transition_row(context: EditContext, motions: Sequence[Motion], judge: Evaluator) -> GridRow:
-    text = judge.embed_text(ACTIONS).numpy()
-    sizes = [accelerations(motion) for motion in motions]
-    change = np.concatenate([values[HALF - AROUND : HALF + AROUND] for values in sizes])
-    rest = [np.delete(each, slice(HALF - AROUND, HALF + AROUND)) for each in sizes]
-    cells = context.against(change, "near")
-    cells["elsewhere"] = float(np.percentile(np.concatenate(rest), TOP))
-    for which, key in enumerate(("before", "after")):
-        hits = []
-        for motion, pair in zip(motions, context.pairs, strict=True):
-            seen = judge.embed_windows(motion.frames(which * HALF, (which + 1) * HALF))
-            distances = np.linalg.norm(seen[:, None] - text[None], axis=-1)  # W P
-            nearest = rank_of(distances, ACTIONS.index(pair[which])) < 1
-            hits.append(float(nearest.mean()))
-        cells[key] = bootstrap_mean(hits)
-    return GridRow(cells, len(motions), 1)

@@ -8,9 +8,8 @@ denoising error alone, the finest and cheapest of the figures.
 Letters: N phrases or songs, S songs, B of a batch or questions, D width of the space, T frames.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -34,7 +33,7 @@ from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..samples import DanceSample
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
 from ..tables import Column, Grid, GridRow, plain, report_data
-from .songs import Piece, dance_of, held_out_songs, open_split, song_of
+from .songs import Piece, dance_of, held_out_songs, items, open_split, song_of
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
 
@@ -55,14 +54,6 @@ class Arm:
 def arms() -> list[Arm]:
     """Without, with, random."""
     return [Arm(WITHOUT, asks=False), Arm(WITH), Arm(RANDOM, stray=True)]
-
-
-def variations(shares: Sequence[float], top_ks: Sequence[int]) -> list[Arm]:
-    """Smaller memories, and other numbers of hits."""
-    return [
-        *(Arm(f"{share:.0%} of the songs", share=share) for share in shares),
-        *(Arm(f"top {top_k}", top_k=top_k) for top_k in top_ks),
-    ]
 
 
 @dataclass(frozen=True)
@@ -88,7 +79,6 @@ class Asker:
         Args:
             query: [B,D].
             bars: unwrapped [B,T]; None = unknown.
-            num_frames: T.
             songs: [B], never found.
             draw: another number, other stray questions.
         """
@@ -118,24 +108,19 @@ class Asker:
 
     def hidden(self, share: float) -> frozenset[str]:
         """The songs that a memory of this share lacks; a smaller one lacks those and more."""
-        keep = max(1, round(share * len(self.index.songs)))
-        return frozenset(self._order[keep:])
-
-    @cached_property
-    def _order(self) -> list[str]:
-        rng = np.random.default_rng([self.seed, 6])
-        return [self.index.songs[n] for n in rng.permutation(len(self.index.songs))]
+        songs = self.index.songs
+        order = np.random.default_rng([self.seed, 6]).permutation(len(songs))
+        return frozenset(songs[n] for n in order[max(1, round(share * len(songs))) :])
 
 
 # ---------------------------------------------------------------- what an arm is measured by
 
-
 Values = dict[str, np.ndarray]  # column -> one figure for each phrase or song [N]
 BATCH = 16
 LEVELS = ("low", "middle", "high")  # thirds of the diffusion's steps
-DENOISING = tuple(
-    Column(level, f"{level} noise" if level != "all" else level, 4, better="low")
-    for level in (*LEVELS, "all")
+DENOISING = (
+    *(Column(level, f"{level} noise", 4, "low") for level in LEVELS),
+    Column("all", "all", 4, "low"),
 )
 CURVES = tuple(
     Column(name, name, 4, better="low") for name in ("energy", "density", "tension", "stability")
@@ -170,22 +155,15 @@ class Setting:
     sampled: SongSampling
 
 
-# ---------------------------------------------------------------- held-back phrases
-
-
 def held_back(
     data: str, splits: Sequence[str], frames: int, most: int, seed: int
 ) -> list[PhraseItem]:
     """Up to `most` windows without padding, a split after the other.
-
-    Raises:
-        UserError: a split is missing.
-    """
+    Raises UserError: a split is missing."""
     found: list[PhraseItem] = []
     for split in splits:
-        dataset = open_split(data, split, frames, seed)
-        items = (dataset.item(int(index), 0) for index in dataset.order(0))
-        found += [item for item in items if item is not None and bool(item.mask.all())]
+        every = items(open_split(data, split, frames, seed))
+        found += [item for item in every if bool(item.mask.all())]
     return found[:most]
 
 
@@ -203,19 +181,12 @@ def denoising(setting: Setting, items: Sequence[PhraseItem], draws: int) -> Figu
         for number, start in enumerate(range(0, len(items), BATCH)):
             part = slice(start, start + BATCH)
             phrases = collate(items[part])
-            memory = setting.asker.answer(
-                arm,
-                setting.space.embed_audio(phrases.audio),
-                bars_of_sound(phrases.audio),
-                phrases.audio.shape[-1],
-                clusters[part],
-                draw=number,
-            )
+            query, bars = setting.space.embed_audio(phrases.audio), bars_of_sound(phrases.audio)
+            asked = query, bars, phrases.audio.shape[-1], clusters[part]
+            memory = setting.asker.answer(arm, *asked, draw=number)
             for third, level in enumerate(LEVELS):
-                errors = [
-                    _denoising_error(setting, phrases, memory, third, (number, third, draw))
-                    for draw in range(draws)
-                ]
+                places = [(number, third, draw) for draw in range(draws)]
+                errors = [_denoising_error(setting, phrases, memory, each) for each in places]
                 found[level].append(torch.stack(errors).mean(dim=0))
         values = {level: torch.cat(each).double().numpy() for level, each in found.items()}
         return values | {"all": np.mean(list(values.values()), axis=0)}
@@ -227,16 +198,15 @@ def _denoising_error(
     setting: Setting,
     phrases: PhraseBatch,
     memory: MemoryCondition | None,
-    third: int,
-    place: tuple[int, ...],
+    place: tuple[int, int, int],
 ) -> Tensor:
-    """[B] of one draw of noise."""
+    """[B] of one draw of noise; its place is batch, third of the steps and draw."""
     model, seed = setting.model, setting.sampled.seed
     device, steps = model.mean.device, model.diffusion.config.timesteps
     entropy = np.random.SeedSequence([seed, 7, *place]).generate_state(1)[0]
     draws = torch.Generator().manual_seed(int(entropy))
     clean = model.normalise(phrases.motion.to(device))
-    low, high = third * steps // len(LEVELS), (third + 1) * steps // len(LEVELS)
+    low, high = (third * steps // len(LEVELS) for third in (place[1], place[1] + 1))
     t = torch.randint(low, max(high, low + 1), (len(clean),), generator=draws).to(device)
     noise = standard_normal(clean.shape, draws, device=device)
     noisy = model.diffusion.q_sample(clean, t, noise)
@@ -268,12 +238,14 @@ def curves(setting: Setting, items: Sequence[PhraseItem]) -> Figures:
             made.append(prior_curves(motion.data))
         return curve_distances(made, real)
 
-    def chance() -> Values:
-        order = np.roll(np.arange(len(items)), len(items) // 2)
-        return curve_distances([real[number] for number in order], real)
-
-    name = "distance of prior curves from real motion"
-    return Figures(name, CURVES, clusters, measure, chance)
+    other = np.roll(np.arange(len(items)), len(items) // 2)
+    return Figures(
+        "distance of prior curves from real motion",
+        CURVES,
+        clusters,
+        measure,
+        chance=lambda: curve_distances([real[number] for number in other], real),
+    )
 
 
 def curve_distances(made: Sequence[np.ndarray], real: Sequence[np.ndarray]) -> Values:
@@ -282,17 +254,11 @@ def curve_distances(made: Sequence[np.ndarray], real: Sequence[np.ndarray]) -> V
     return {column.key: rows[:, place] for place, column in enumerate(CURVES)}
 
 
-# ---------------------------------------------------------------- songs
-
-
 def songs(setting: Setting, pieces: Sequence[Piece]) -> Figures:
     """Beat alignment and sanity of motions for held-out synthetic songs, one sample a song."""
 
     def measure(arm: Arm) -> Values:
-        made = [
-            dance(setting, arm, piece.condition, piece.phase, piece.name, number)
-            for number, piece in enumerate(pieces)
-        ]
+        made = [dance(setting, arm, p.condition, p.phase, p.name, n) for n, p in enumerate(pieces)]
         sample = DanceSample.of(list(map(dance_of, pieces, made)))
         found: Values = {}
         for family in SONG_FAMILIES:
@@ -322,17 +288,7 @@ def dance(
     return sampler.sample(condition, phase=bars, recall=recall if arm.asks else None)[0]
 
 
-# ---------------------------------------------------------------- the suite
-
-
 CHANCE = "real, of another song"
-NOTE = (
-    "± is half a 95% interval: rows by bootstrap over songs; differences by paired bootstrap over"
-    " songs (10,000 resamples). * the interval excludes 0. random: the answer to a random"
-    " question, with the confidence of the right one. Every cell is one test: of twenty that"
-    " differ in nothing, one seems to. An untrained memory part changes nothing: its row"
-    " is without."
-)
 
 
 @dataclass(frozen=True)
@@ -362,7 +318,7 @@ def evaluate_memory(
     about: Mapping[str, Any] | None = None,
     progress: Progress = lambda text: None,
 ) -> dict[str, Any]:
-    """The whole report as plain data: about, settings, tables, verdict.
+    """The whole report as plain data, with a verdict.
 
     Args:
         model: of train_memory.
@@ -370,25 +326,23 @@ def evaluate_memory(
         data: folder or bucket of pairs with the splits to measure on.
         config: how the memory is asked.
         sampling: what `SongSampling` takes, the seed aside.
-        about: what to repeat in the report.
 
-    Raises:
-        UserError: the data cannot be used.
+    Raises UserError: the data cannot be used.
     """
     sampled = SongSampling(seed=settings.seed, **(sampling or {})).resolved(model.config)
     setting = Setting(model, space, Asker(index, config, settings.seed), sampled)
-    items = held_back(
-        data, settings.splits, model.config.window, settings.num_phrases, settings.seed
-    )
+    frames, seed = model.config.window, settings.seed
+    items = held_back(data, settings.splits, frames, settings.num_phrases, seed)
     if len(items) < MIN_PAIRS:
         raise UserError(
-            f"{data}: {len(items)} held-back phrases of {model.config.window} frames are too few"
+            f"{data}: {len(items)} held-back phrases of {frames} frames are too few"
             "; prepare more data"
         )
-    pieces = held_out_songs(
-        settings.num_songs, settings.song_seconds, settings.seed, tell_meter=settings.tell_meter
-    )
-    main, others = arms(), variations(settings.shares, settings.top_ks)
+    amount = settings.num_songs, settings.song_seconds, seed
+    pieces = held_out_songs(*amount, tell_meter=settings.tell_meter)
+    main = arms()
+    others = [Arm(f"{share:.0%} of the songs", share=share) for share in settings.shares]
+    others += [Arm(f"top {top_k}", top_k=top_k) for top_k in settings.top_ks]
     tables: list[Grid] = []
     verdict: dict[str, Any] = {}
     for figures, asked in (
@@ -402,7 +356,7 @@ def evaluate_memory(
             measured[arm.name] = over_songs(figures.measure(arm), figures.clusters)
         if figures.chance is not None:
             measured[CHANCE] = over_songs(figures.chance(), figures.clusters)
-        tables += [rows_table(figures, measured), gains_table(figures, measured, asked)]
+        tables += arm_tables(figures, measured, asked)
         verdict |= judged(figures, measured)
     facts = {
         **(about or {}),
@@ -426,25 +380,24 @@ def over_songs(values: Values, clusters: Sequence[str]) -> Values:
     return {key: np.array([each[row].mean() for row in rows]) for key, each in values.items()}
 
 
-def rows_table(figures: Figures, measured: Mapping[str, Values]) -> Grid:
-    """Every arm's figures."""
+def arm_tables(
+    figures: Figures, measured: Mapping[str, Values], asked: Sequence[Arm]
+) -> Iterator[Grid]:
+    """Every arm's figures; then every arm less "without", and with less random."""
     rows = {
-        name: GridRow({key: bootstrap_mean(each.tolist()).as_dict() for key, each in found.items()})
+        name: GridRow({key: bootstrap_mean(each) for key, each in found.items()})
         for name, found in measured.items()
     }
-    return Grid(figures.name, figures.name, figures.columns, rows, NOTE, head="memory")
-
-
-def gains_table(figures: Figures, measured: Mapping[str, Values], asked: Sequence[Arm]) -> Grid:
-    """Every arm less "without", and with less random."""
+    name, columns = figures.name, figures.columns
+    yield Grid.of("memory", rows, name=name, title=name, columns=columns)
     pairs = {f"{arm.name} − {WITHOUT}": (arm.name, WITHOUT) for arm in asked if arm.asks}
     pairs |= {f"{WITH} − {RANDOM}": (WITH, RANDOM)}
     rows = {
-        name: GridRow({c.key: difference(measured, *pair, c.key) for c in figures.columns})
-        for name, pair in pairs.items()
+        gain: GridRow({c.key: difference(measured, *pair, c.key) for c in columns})
+        for gain, pair in pairs.items()
     }
-    title = f"{figures.name}: differences"
-    return Grid(title, title, figures.columns, rows, head="memory")
+    title = f"{name}: differences"
+    yield Grid(title, title, columns, rows, head="memory")
 
 
 def difference(measured: Mapping[str, Values], arm: str, base: str, key: str) -> dict[str, Any]:
@@ -455,14 +408,11 @@ def difference(measured: Mapping[str, Values], arm: str, base: str, key: str) ->
 
 def judged(figures: Figures, measured: Mapping[str, Values]) -> dict[str, Any]:
     """For each column with a good side: is the memory better than none, and than a random one?"""
-    return {
-        f"{figures.name}: {column.heading}": {
-            base: word(difference(measured, WITH, base, column.key), column)
-            for base in (WITHOUT, RANDOM)
-        }
-        for column in figures.columns
-        if column.better != "real"
-    }
+    found = {}
+    for column in (each for each in figures.columns if each.better != "real"):
+        gains = {b: difference(measured, WITH, b, column.key) for b in (WITHOUT, RANDOM)}
+        found[f"{figures.name}: {column.heading}"] = {b: word(g, column) for b, g in gains.items()}
+    return found
 
 
 def word(found: Mapping[str, Any], column: Column) -> str:

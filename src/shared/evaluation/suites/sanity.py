@@ -35,14 +35,6 @@ COLOURS = {
     "generated": "tab:red", "written": "tab:orange", "real": "tab:green", "untrained": "grey",
     "frozen": "tab:blue",
 }  # fmt: skip
-NOTES = {
-    "sanity": "generated: as the sampler of `generate` joins its windows, not post-processed;"
-    " written: post-processed, as the files hold it. seven: TECH's five checks and ruling 18's two;"
-    " suite: with liveliness, roughness and bands. No chance row: no check asks which song a motion"
-    " belongs to.",
-    "inside": "Share of motions between the 5th and 95th percentile of training motions; real"
-    " motion itself reaches about 0.9.",
-}
 
 
 @dataclass(frozen=True)
@@ -81,8 +73,7 @@ def evaluate_sanity(
             split gives the bands, at the same number of frames. None = held-out synthetic songs.
         about: what to repeat in the report.
 
-    Raises:
-        UserError: the data cannot be used.
+    Raises UserError: the data cannot be used.
     """
     settings, started = settings or SanitySettings(), time.perf_counter()
     model, bands = generator.model, generator.bands
@@ -132,12 +123,11 @@ def _from_data(
         )
     learned = phrases(train, settings.max_training, whole=True)
     bands = Bands.of(phrase.motion for phrase in learned)
-    same = model.card.data == train.fingerprint
+    kept = "yes: the model was trained on this data's train split"
+    unknown = "unknown: the model was trained on other data than this train split"
     facts = {
         "sound": f"test split of {data}",
-        "held_out": "yes: the model was trained on this data's train split"
-        if same
-        else "unknown: the model was trained on other data than this train split",
+        "held_out": kept if model.card.data == train.fingerprint else unknown,
         "test_phrases": len(held_back),
         "training_windows": len(learned),
         "data_hash": test.fingerprint[:12],
@@ -145,10 +135,8 @@ def _from_data(
     heard = list(held_back)
     for draw in range(1, math.ceil(settings.num_samples / len(held_back))):
         heard += phrases(test, len(held_back), whole=True, draw=draw)  # other windows of the same
-    songs = [
-        SongCondition(phrase.audio, phrase.bars, phrase.beats, number)
-        for number, phrase in enumerate(heard[: settings.num_samples])
-    ]
+    asked = enumerate(heard[: settings.num_samples])
+    songs = [SongCondition(each.audio, each.bars, each.beats, number) for number, each in asked]
     return songs, [phrase.motion for phrase in held_back], bands, facts
 
 
@@ -167,15 +155,8 @@ def sampled(
     return made
 
 
-# ---------------------------------------------------------------- verdict
-
-
 def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str, Any]:
-    """What must hold, by name: value and whether it does.
-
-    Args:
-        rows: of `sanity_row`, by name.
-        bands: of training motions, if known.
+    """What must hold of `sanity_row` by name, with the bands of training motions if known.
 
     Returns:
         seven_checks: share of generated motions that pass all of the documents' checks, Wilson
@@ -202,37 +183,27 @@ def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str
     return result
 
 
-# ---------------------------------------------------------------- tables and a picture
-
-
 def sanity_grids(
     rows: Mapping[str, dict[str, Any]], bands: Bands | None, found: Mapping[str, Any]
 ) -> Iterator[Grid]:
     """Every table of the report, in reading order; `found` is the verdict."""
     named = [Column(key, key.replace("_", " "), 0) for key in COLUMNS]
     columns = (Column("passed_seven", "seven", 0), Column("passed", "suite", 0), *named)
-    passed = {
-        name: GridRow(
-            {key: row["checks"][key]["passed"] for key in COLUMNS if key in row["checks"]}
-            | {key: row[key] for key in ("passed_seven", "passed")},
-            row["motions"],
-        )
-        for name, row in rows.items()
-    }
-    yield Grid("sanity", "motions that pass", columns, passed, NOTES["sanity"])
+    passed = {}
+    for name, row in rows.items():
+        cells = {key: row["checks"][key]["passed"] for key in COLUMNS if key in row["checks"]}
+        cells |= {key: row[key] for key in ("passed_seven", "passed")}
+        passed[name] = GridRow(cells, row["motions"])
+    yield Grid.of("motions that pass", passed, name="sanity", columns=columns)
     if bands is not None:
         known = {k: bands.bands[k] for k in rows["generated"]["inside"]}
         columns = tuple(Column(name, name.replace("_", " "), 2) for name in known)
         limits = {name: f"{band.low:.3g} – {band.high:.3g}" for name, band in known.items()}
         shares = {name: GridRow(row["inside"]) for name, row in rows.items()}
-        title = "motions inside the training motions' band"
-        yield Grid(
-            "inside", title, columns, {"p5 to p95": GridRow(limits)} | shares, NOTES["inside"]
-        )
+        yield Grid.of("inside", {"p5 to p95": GridRow(limits)} | shares, columns=columns)
     said = {what: GridRow({"value": value, "holds": "yes" if holds else "NO"})
             for what, value, holds in _said(found)}  # fmt: skip
-    columns = (Column("value", "value"), Column("holds", "holds"))
-    yield Grid("verdict", "verdict", columns, said, head="what must hold")
+    yield Grid.of("verdict", said)
 
 
 def _said(found: Mapping[str, Any]) -> Iterator[tuple[str, str, bool]]:
@@ -253,10 +224,7 @@ def plot_bands(
     motions: Mapping[str, Sequence[MotionTrajectory]], bands: Bands | None, path: str | Path
 ) -> Path:
     """Every motion as a dot for each measure, over the band of training motions.
-
-    Raises:
-        UserError: matplotlib is missing, or the file cannot be written.
-    """
+    Raises UserError: matplotlib is missing, or the file cannot be written."""
     figure = new_figure(14, 7)
     for axes, (name, measure) in zip(figure.subplots(2, 3).flat, MEASURES.items(), strict=True):
         band = bands.bands.get(name) if bands else None

@@ -21,16 +21,9 @@ from typing import Any, Literal
 import numpy as np
 
 from ...errors import UserError
-from ...metrics.kinetic import (
-    Features,
-    Stacked,
-    kinetic_columns,
-    root_geometric_features,
-    root_kinetic_features,
-    stacked,
-)
+from ...metrics import kinetic
 from ...metrics.physical import physics, travel, travel_error
-from ...metrics.retrieval import BATCH, TOP, best_ranks, pair_distances
+from ...metrics.retrieval import BATCH, TOP, in_batches
 from ...metrics.rhythm import against_chance, motion_beats, rhythm
 from ...metrics.sanity import Bands
 from ...model.generation.motion_generator import TextToMotion
@@ -55,11 +48,6 @@ ROLES: dict[Role, str] = {
     "judge": "the judge's own terms",
 }
 Chosen = np.ndarray  # [P], which candidate of each subject
-NOTE = (
-    "Rows: ± is 95% over replications, other noise for the same subjects (floors: over subjects)."
-    " Difference: paired, ± is 95% by bootstrap over subjects. * better, and the intervals of both"
-    " rows are apart. An untrained judge chooses at random: its row is best of 1."
-)
 
 
 @dataclass(frozen=True)
@@ -139,9 +127,9 @@ def selection_report(pool: Pool, largest: int) -> Report:
     """
     rows: dict[str, dict[str, Any]] = {}
     for name, floor in pool.floors.items():
-        rows[name] = {key: bootstrap_mean(values).as_dict() for key, values in floor.items()}
-        for key, value in pool.set_floors.get(name, {}).items():
-            rows[name][key] = Estimate(value, value, value, 1).as_dict()
+        known = {key: bootstrap_mean(values) for key, values in floor.items()}
+        known |= {k: Estimate(v, v, v, 1) for k, v in pool.set_floors.get(name, {}).items()}
+        rows[name] = {key: estimate.as_dict() for key, estimate in known.items()}
     taken = {f"best of {size}": choices(pool.score, size) for size in sizes(largest)}
     taken[f"worst of {largest}"] = choices(-pool.score, largest)
     found = {name: measured(pool, chosen) for name, chosen in taken.items()}
@@ -153,11 +141,11 @@ def selection_report(pool: Pool, largest: int) -> Report:
         key, higher = figure.key, figure.higher
         cells = rows["best of 1"][key], rows[f"best of {largest}"][key]
         low, high = cells if higher else cells[::-1]
-        known = min(cell["count"] for cell in cells) > 2
+        several = min(cell["count"] for cell in cells) > 2
         gains[key] = {
             "role": figure.role,
             "better": bool(low["value"] < high["value"]),
-            "apart": bool(known and low["high"] < high["low"]),
+            "apart": bool(several and low["high"] < high["low"]),
         }
         if key in many:
             gain = bootstrap_mean(many[key] - one[key]).as_dict()
@@ -173,8 +161,7 @@ def report_of(
 ) -> Report:
     """`selection_report` with what it was measured on, as plain data for JSON.
 
-    Args:
-        subjects: words for the titles.
+    `subjects`: words for the titles.
     """
     found = selection_report(pool, largest)
     apart = ", ".join(found["outside_apart"]) or "none"
@@ -207,7 +194,8 @@ def selection_grids(found: Report, figures: Sequence[Figure], subjects: str) -> 
             if f.role == role
         ]
         if columns:
-            yield Grid(role, f"{title} ({subjects})", tuple(columns), rows, NOTE)
+            title = f"{title} ({subjects})"
+            yield Grid.of("selection", rows, name=role, title=title, columns=tuple(columns))
 
 
 # ---------------------------------------------------------------- prompts
@@ -254,9 +242,7 @@ def prompt_pool(
     """C candidates for each of P ≥ 32 captions at their clips' lengths, measured.
 
     Args:
-        best_of: generator and judge.
-        evaluator: trained apart from both.
-        clips: held-back ones.
+        evaluator: trained apart from generator and judge.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
     """
     made: list[list[Motion]] = []
@@ -265,14 +251,8 @@ def prompt_pool(
     for start in range(0, len(clips), PROMPTS_AT_ONCE):
         progress(f"candidates for prompt {start + 1} of {len(clips)}")
         part = slice(start, start + PROMPTS_AT_ONCE)
-        for result in best_of.sample(
-            clips.captions[part],
-            num_candidates,
-            seconds=seconds[part],
-            return_all=True,
-            seed=seed,
-            **sampling,
-        ):
+        asked = {"seconds": seconds[part], "return_all": True, "seed": seed, **sampling}
+        for result in best_of.sample(clips.captions[part], num_candidates, **asked):
             assert result.all_candidates is not None
             made.append(result.all_candidates)
             tables.append(result.table)
@@ -282,12 +262,11 @@ def prompt_pool(
     embedded = embedded.reshape(len(clips), num_candidates, -1)
     text = evaluator.embed_text(clips.captions).numpy()
     order, rows = np.random.default_rng(seed).permutation(len(clips)), np.arange(len(clips))
+    kept, sampled = evaluator.embed_motion(clips.motions).numpy(), [made[p][0] for p in order]
+    sets = {"real": (kept, clips.motions), "chance": (embedded[order, 0], sampled)}
     floors: dict[str, dict[str, np.ndarray]] = {}
-    for name, own, motions in (
-        ("real", evaluator.embed_motion(clips.motions).numpy(), [[m] for m in clips.motions]),
-        ("chance", embedded[order, 0], [[made[p][0]] for p in order]),
-    ):
-        single = _singles(motions, clips, text, own[:, None])
+    for name, (own, motions) in sets.items():
+        single = _singles([[motion] for motion in motions], clips, text, own[:, None])
         floors[name] = {key: values[:, 0] for key, values in single.items()}
         floors[name] |= _retrieval(text, own, clips, seed)
     for key in ("speed_error", "turn_error"):
@@ -305,21 +284,22 @@ def _singles(
     made: Sequence[Sequence[Motion]], clips: Clips, text: np.ndarray, embedded: np.ndarray
 ) -> dict[str, np.ndarray]:
     """Figures [P,C] of each candidate by itself."""
-    found: dict[str, list[np.ndarray]] = {}
+    rows = []
     for motions, labels, real in zip(made, clips.labels, clips.motions, strict=True):
         bodies, answers = [physics(m) for m in motions], [check(labels, m) for m in motions]
         errors = travel_error([travel(m) for m in motions], [travel(real)] * len(motions))
-        obeys = [all(each.values()) if each else float("nan") for each in answers]
-        for key, values in {
-            "obeys": obeys,
-            "speed_error": errors["speed"],
-            "turn_error": errors["turn"],
-            "support_slide": [body["support_slide"] for body in bodies],
-            "hand_jerk": [body["hand_jerk"] for body in bodies],
-        }.items():
-            found.setdefault(key, []).append(np.array(values, dtype=np.float64))
+        rows.append(
+            {
+                "obeys": [all(each.values()) if each else float("nan") for each in answers],
+                "speed_error": errors["speed"],
+                "turn_error": errors["turn"],
+                "support_slide": [body["support_slide"] for body in bodies],
+                "hand_jerk": [body["hand_jerk"] for body in bodies],
+            }
+        )
+    found = {key: np.array([row[key] for row in rows], dtype=np.float64) for key in rows[0]}
     apart = np.linalg.norm(embedded.astype(np.float64) - text[:, None], axis=-1)
-    return {key: np.stack(rows) for key, rows in found.items()} | {"matching_distance": apart}
+    return found | {"matching_distance": apart}
 
 
 def _retrieval(
@@ -329,16 +309,11 @@ def _retrieval(
 
     Motions of the same label group or caption are hits, as in `guo_retrieval`.
     """
-    columns = [
-        np.unique(column, return_inverse=True)[1] for column in (clips.groups, clips.captions)
-    ]
     hits, seen = np.zeros((len(TOP), len(text))), np.zeros(len(text))
+    equal_by = clips.groups, clips.captions
     for batching in range(BATCHINGS):
-        order = np.random.default_rng([seed, batching]).permutation(len(text))
-        for rows in order[: len(text) // BATCH * BATCH].reshape(-1, BATCH):
-            relevant = np.any([ids[rows][:, None] == ids[rows] for ids in columns], axis=0)
-            ranks = best_ranks(pair_distances(text[rows], motion[rows]), relevant)
-            hits[:, rows] += [ranks.hits(k) for k in TOP]
+        for rows, right in in_batches(text, motion, equal_by, [seed, batching]):
+            hits[:, rows] += right
             seen[rows] += 1
     rates = np.divide(hits, seen, out=np.full_like(hits, np.nan), where=seen > 0)
     return {"r_at_1": rates[0], "r_at_3": rates[2]}
@@ -366,22 +341,16 @@ def evaluate_prompts(
         cache: where synthetic clips are kept.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
 
-    Raises:
-        UserError: no such model, tower, evaluator or data, or too few clips.
+    Raises UserError: no such model, tower, evaluator or data, or too few clips.
     """
     settings = settings or PromptSettings()
     outside = Evaluator.from_pretrained(evaluator)
     generator = TextToMotion.from_pretrained(model, device=device)
     tower = own_tower(generator.text) if judge is None else load_tower(judge, generator.text)
     held_out = open_held_out(data, cache, outside.trained_groups)
-    clips = real_clips(
-        held_out.data,
-        held_out.records[settings.split],
-        num=settings.num_prompts,
-        max_frames=settings.max_frames,
-        language=settings.language,
-        seed=settings.seed,
-    )
+    amount = {"num": settings.num_prompts, "max_frames": settings.max_frames}
+    records, language = held_out.records[settings.split], settings.language
+    clips = real_clips(held_out.data, records, **amount, language=language, seed=settings.seed)
     if len(clips) < BATCH:
         raise UserError(
             f"{data}: {len(clips)} clips of {settings.split} are fewer than {BATCH}"
@@ -389,10 +358,8 @@ def evaluate_prompts(
         )
     best_of = PromptSampler(generator, TextJudge(tower))
     number = settings.num_candidates * settings.replications
-    pool = prompt_pool(
-        best_of, outside, clips,
-        num_candidates=number, seed=settings.seed, progress=progress, **sampling,
-    )  # fmt: skip
+    amount = {"num_candidates": number, "seed": settings.seed}
+    pool = prompt_pool(best_of, outside, clips, **amount, progress=progress, **sampling)
     about = {
         "model": model,
         "model_hash": generator.card.content_hash[:12],
@@ -463,53 +430,45 @@ def song_pool(
     names = dict.fromkeys(name for table in tables for name in table.terms)
     nothing = np.full(settings.num_samples, np.nan)
     terms = {n: np.stack([table.terms.get(n, nothing) for table in tables]) for n in names}
-    beats = [[motion_beats(m.position, m.fps).times for m in row] for row in made]
-    hits = [
-        [rhythm(times, piece.beats, piece.seconds).hits for times in row]
-        for row, piece in zip(beats, pieces, strict=True)
-    ]
-    chance = []  # of the first candidate of each song, moved by random times
-    for index, (row, piece) in enumerate(zip(beats, pieces, strict=True)):
-        rng = np.random.default_rng([settings.seed, index])
-        chance.append(against_chance(row[0], piece.beats, piece.seconds, rng)[1].hits)
+    hits, chance = [], []  # chance: the first candidate of each song, moved by random times
+    for index, (row, piece) in enumerate(zip(made, pieces, strict=True)):
+        beats = [motion_beats(m.position, m.fps).times for m in row]
+        music, rng = (piece.beats, piece.seconds), np.random.default_rng([settings.seed, index])
+        hits.append([rhythm(times, *music).hits for times in beats])
+        chance.append(against_chance(beats[0], *music, rng)[1].hits)
     figures = [HITS, *(Figure(name, name, 3, True, "judge") for name in terms)]
-    pool = Pool(
-        figures,
-        np.stack([table.score for table in tables]),
-        {"hits": np.array(hits)} | terms,
-        floors={"chance": {"hits": np.array(chance)}},
-    )
+    score, floors = np.stack([table.score for table in tables]), {"hits": np.array(chance)}
+    pool = Pool(figures, score, {"hits": np.array(hits)} | terms, floors={"chance": floors})
     if not real:
         return pool
     ours, known = [_features(row) for row in made], _features(real)
-    theirs = stacked(known)
     order = np.random.default_rng(settings.seed).permutation(len(real))
     size = min(len(pieces), len(real) // 2)  # as many real motions as songs, from the others
-    halves = (stacked([known[at] for at in part]) for part in (order[:size], order[size:]))
-    between = _distances(*halves)
+    halves = ([known[at] for at in part] for part in (order[:size], order[size:]))
 
     def of_set(chosen: Chosen) -> dict[str, float]:
         """Of one candidate of each song, side by side."""
-        return _distances(
-            stacked([song[at] for song, at in zip(ours, chosen, strict=True)]), theirs
-        )
+        return _distances([song[at] for song, at in zip(ours, chosen, strict=True)], known)
 
     return replace(
         pool,
         figures=[*DISTANCES, *figures],
         of_set=of_set,
         floors={"real": {}, **pool.floors},
-        set_floors={"real": between},
+        set_floors={"real": _distances(*halves)},
     )
 
 
-def _features(motions: Sequence[MotionTrajectory]) -> list[Features]:
+def _features(motions: Sequence[MotionTrajectory]) -> list[kinetic.Features]:
     """Of each motion as a whole; how much it moves counts for nothing here."""
-    return [(root_kinetic_features(m), root_geometric_features(m), 0.0) for m in motions]
+    moves, poses = kinetic.root_kinetic_features, kinetic.root_geometric_features
+    return [(moves(motion), poses(motion), 0.0) for motion in motions]
 
 
-def _distances(ours: Stacked, theirs: Stacked) -> dict[str, float]:
-    found = kinetic_columns(ours, theirs, kinds=KINDS)
+def _distances(
+    ours: Sequence[kinetic.Features], theirs: Sequence[kinetic.Features]
+) -> dict[str, float]:
+    found = kinetic.kinetic_columns(kinetic.stacked(ours), kinetic.stacked(theirs), kinds=KINDS)
     return {key: float(found[key]) for key in ("fid_g", "fid_k")}
 
 
@@ -531,8 +490,7 @@ def evaluate_songs(
         bands: of real motions, for the judge.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
 
-    Raises:
-        UserError: no such model, or the data cannot be used.
+    Raises UserError: no such model, or the data cannot be used.
     """
     settings = settings or SongSettings()
     real: list[MotionTrajectory] = []

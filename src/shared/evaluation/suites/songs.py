@@ -8,6 +8,7 @@ Letters: T frames, C rows of sound.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +17,8 @@ from torch import Tensor
 
 from ...audio.song import analyse, analyse_sound
 from ...audio.sound import sound_from_samples
-from ...audio.synthetic import (
-    HELD_OUT_TEMPI,
-    SongSpec,
-    render_song,
-    sample_song_specs,
-    song_beats,
-)
-from ...data.phrases.dataset import MotionPhraseDataset
+from ...audio.synthetic import HELD_OUT_TEMPI, SongSpec, render_song, sample_song_specs, song_beats
+from ...data.phrases.dataset import MotionPhraseDataset, PhraseItem
 from ...data.phrases.layout import PhraseRecord
 from ...data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ...errors import UserError
@@ -83,37 +78,27 @@ def held_out_songs(
 ) -> Iterator[Piece]:
     """Freshly rendered songs with tempi of their own.
 
-    Args:
-        tell_meter: the beat tracker is told the beats a bar, as with `--meter`; else it chooses.
+    `tell_meter`: the beat tracker is told the beats a bar, as with `--meter`; else it chooses.
     """
     for index, spec in enumerate(held_out_specs(number, seconds, seed)):
         made = render_song(spec)
         sound = sound_from_samples(made.samples, made.sample_rate)
         song = analyse_sound(sound, meter=spec.meter if tell_meter else None)
-        condition, phase = song_condition(song, None)
-        bars = made.phase(song.num_frames)
+        tempo = 60.0 / float(np.median(np.diff(made.beat_times)))
         yield Piece(
-            name=f"synthetic-{FRESH_SEED + seed}-{index:03d}",
-            condition=condition,
-            phase=phase,
+            f"synthetic-{FRESH_SEED + seed}-{index:03d}",
+            *song_condition(song, None),
             meter=song.beats.meter,
-            bars=bars,
+            bars=made.phase(song.num_frames),
             true_meter=spec.meter,
             beats=song_beats(replace(spec, seconds=spec.seconds + MARGIN))[0],
-            about={
-                "tempo": 60.0 / float(np.median(np.diff(made.beat_times))),
-                "meter": spec.meter,
-                "heard": song.beats.tempo,
-            },
+            about={"tempo": tempo, "meter": spec.meter, "heard": song.beats.tempo},
         )
 
 
 def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
     """The first `seconds` of every sound file below a folder; beats are the tracker's.
-
-    Raises:
-        UserError: there is none.
-    """
+    Raises UserError: there is none."""
     from ...data.pairing.music import SOUND_FILES
 
     found = sorted(p for p in folder.rglob("*") if p.suffix.lower() in SOUND_FILES and p.is_file())
@@ -121,21 +106,17 @@ def tracks(folder: Path, seconds: float) -> Iterator[Piece]:
         raise UserError(f"{folder} holds no sound file ({', '.join(SOUND_FILES)}); name another")
     for path in found:
         song = analyse(path)
-        condition, phase = song_condition(song, seconds)
+        heard = song.beats
+        about: dict[str, Any] = {"tempo": float(heard.tempo), "meter": heard.meter}
+        about |= {"confidence": float(heard.confidence), "sha256": song.sha256[:12]}
         yield Piece(
-            name=path.stem,
-            condition=condition,
-            phase=phase,
-            meter=song.beats.meter,
+            path.stem,
+            *song_condition(song, seconds),
+            meter=heard.meter,
             bars=None,
-            true_meter=song.beats.meter,
-            beats=np.asarray(song.beats.beat_times),
-            about={
-                "tempo": float(song.beats.tempo),
-                "meter": song.beats.meter,
-                "confidence": float(song.beats.confidence),
-                "sha256": song.sha256[:12],
-            },
+            true_meter=heard.meter,
+            beats=np.asarray(heard.beat_times),
+            about=about,
         )
 
 
@@ -153,15 +134,20 @@ class RealPhrase:
     bars: np.ndarray | None  # unwrapped [T], as those rows tell; None without
 
 
-def open_split(data: str, split: str, frames: int, seed: int) -> MotionPhraseDataset:
+def open_split(
+    data: str, split: str, frames: int, seed: int, *, bodies: bool = False
+) -> MotionPhraseDataset:
     """Windows of `frames` of one split of a folder or bucket of pairs.
-
-    Raises:
-        UserError: there is none.
-    """
+    Raises UserError: there is none."""
     return MotionPhraseDataset(
-        data, split=split, target_frames=frames, seed=seed, cache_in_memory=False
+        data, split=split, target_frames=frames, seed=seed, cache_in_memory=False, bodies=bodies
     )
+
+
+def items(dataset: MotionPhraseDataset, draw: int = 0) -> Iterator[PhraseItem]:
+    """Every phrase that can be read, in the order that the dataset's seed gives."""
+    found = (dataset.item(int(index), draw) for index in dataset.order(0))
+    return (item for item in found if item is not None)
 
 
 def phrases(
@@ -174,17 +160,12 @@ def phrases(
         draw: which window of each phrase.
     """
     found: list[RealPhrase] = []
-    for index in dataset.order(0):
-        if len(found) == number:
-            break
-        item = dataset.item(int(index), draw)
-        if item is None or (whole and not bool(item.mask.all())):
-            continue
+    usable = (item for item in items(dataset, draw) if not whole or bool(item.mask.all()))
+    for item in islice(usable, number):
         audio = item.audio[:, item.mask]
         bars, beats = clock(audio)
-        window = item.motion[:, item.mask].numpy()
-        placed = place_window(window, phase=0.0 if bars is None else float(bars[0]))
-        motion = MotionTrajectory(placed)
+        window, start = item.motion[:, item.mask].numpy(), 0.0 if bars is None else float(bars[0])
+        motion = MotionTrajectory(place_window(window, phase=start))
         found.append(RealPhrase(song_of(item.record), audio, motion, beats, bars))
     return found
 
@@ -205,8 +186,7 @@ def clock(audio: Tensor) -> tuple[np.ndarray | None, np.ndarray]:
 
 def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongCondition]:
     """Windows of held-out synthetic songs, several of each."""
-    seconds, each = 30.0, max(1, int(30.0 * FPS) // frames)
-    seconds = max(seconds, frames / FPS)
+    seconds, each = max(30.0, frames / FPS), max(1, int(30.0 * FPS) // frames)
     found: list[SongCondition] = []
     for piece in held_out_songs(-(-number // each), seconds, seed):
         for part in (slice(k * frames, (k + 1) * frames) for k in range(each)):
@@ -219,7 +199,6 @@ def conditions_of_songs(number: int, frames: int, seed: int) -> list[SongConditi
 
 # ---------------------------------------------------------------- bodies
 
-
 MIN_BEATS = 4  # of a real dance that is held against its music
 
 
@@ -228,8 +207,7 @@ def captured_dances(folder: Path, frames: int) -> Iterator[Dance[Motion]]:
 
     What is left at the end is a piece if it is half as long, or all there is.
 
-    Raises:
-        UserError: there is none, or one cannot be read.
+    Raises UserError: there is none, or one cannot be read.
     """
     files = sorted(each for each in folder.iterdir() if each.suffix.lower() in FOLDER_ENDINGS)
     if not files:
@@ -244,18 +222,11 @@ def captured_dances(folder: Path, frames: int) -> Iterator[Dance[Motion]]:
 
 def real_dances(data: str, frames: int, number: int, seed: int) -> list[Dance[Motion]]:
     """Bodies of up to `number` test phrases that have beats, windows of at most `frames`."""
-    split = MotionPhraseDataset(
-        data, split="test", target_frames=frames, seed=seed, cache_in_memory=False, bodies=True
-    )
-    found: list[Dance[Motion]] = []
-    for index in split.order(0):
-        item = split.item(int(index), 0)
-        if len(found) == number:
-            break
-        if item is None or item.body is None:
-            continue
-        beats = clock(item.audio[:, item.mask])[1]
-        if len(beats) >= MIN_BEATS:
-            body = decode_features(item.body[item.mask])
-            found.append(Dance(song_of(item.record), body, beats))
-    return found
+
+    def dances() -> Iterator[Dance[Motion]]:
+        for item in items(open_split(data, "test", frames, seed, bodies=True)):
+            beats = clock(item.audio[:, item.mask])[1]
+            if item.body is not None and len(beats) >= MIN_BEATS:
+                yield Dance(song_of(item.record), decode_features(item.body[item.mask]), beats)
+
+    return list(islice(dances(), number))

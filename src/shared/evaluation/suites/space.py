@@ -19,16 +19,16 @@ from torch import Tensor
 from ...data.phrases.dataset import MotionPhraseDataset
 from ...data.phrases.layout import PhraseRecord
 from ...memory.build import cut_at_bars
-from ...metrics.retrieval import BATCH, Ranks, best_ranks
+from ...metrics.retrieval import BATCH, Ranks, batches, best_ranks
 from ...model.audio.conditioning import BEAT, with_phase_rows
 from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
-from ..samples import untrained_audio_tower, untrained_motion_tower
+from ..samples import rows_of_each, untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
-from ..tables import Column, Grid, GridRow, report_data
+from ..tables import Grid, GridRow, Report, report_data
 from .songs import song_of
 
 Embed = Callable[[Tensor, Tensor], Tensor]
@@ -80,7 +80,6 @@ class Windows:
         """
         items: list[Window] = []
         records: list[PhraseRecord] = []
-        of_phrase: list[list[int]] = []
         for number, record in enumerate(dataset.phrases):
             phrase = dataset.whole(number)
             if phrase is None:
@@ -91,12 +90,9 @@ class Windows:
                 shown = stretched(audio, phrase.phase, phrase.body, rate)
                 cuts = cut_at_bars(shown[1], bars=bars, step=step, min_frames=min_frames)
                 parts = [slice(start, min(stop, start + max_frames)) for start, stop in cuts]
-                first = len(items)
                 items += [Window(len(records), shown[0][:, p], shown[2][p]) for p in parts]
-                if parts:
-                    records.append(record)
-                    of_phrase.append(list(range(first, len(items))))
-        return cls(items, records, of_phrase)
+                records += [record] if parts else []
+        return cls(items, records, list(rows_of_each(item.phrase for item in items).values()))
 
     def sounds(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
         """Conditions [B,167,T] of windows, padded with zeros, and their mask [B,T]."""
@@ -133,16 +129,10 @@ class Windows:
 def stretched(
     audio: np.ndarray, phase: np.ndarray, body: np.ndarray, rate: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sound and motion `rate` times as fast, by linear interpolation.
+    """Sound [167,T], unwrapped bars [T] and raw features [T,23,6] `rate` times as fast.
 
-    Args:
-        audio: condition [167,T].
-        phase: unwrapped bars [T].
-        body: raw features [T,23,6].
-        rate: 1 = as they are.
-
-    Returns:
-        The same three of T' frames; velocities and turning are `rate` times as large.
+    By linear interpolation: the same three of T' frames; velocities and turning are `rate` times
+    as large.
     """
     if rate == 1:
         return audio, phase, body
@@ -170,17 +160,14 @@ def related(records: Sequence[PhraseRecord]) -> np.ndarray:
     """Which phrases [N,N] bool are of one song or share a clip; each is related to itself."""
     songs = np.array([song_of(record) for record in records])
     same = songs[:, None] == songs[None]
-    owners: dict[str, list[int]] = {}
-    for number, record in enumerate(records):
-        for clip in record.clips:
-            owners.setdefault(clip, []).append(number)
-    for rows in owners.values():
-        same[np.ix_(rows, rows)] = True
+    owned = [(clip, number) for number, record in enumerate(records) for clip in record.clips]
+    for rows in rows_of_each(clip for clip, _ in owned).values():
+        owners = [owned[row][1] for row in rows]
+        same[np.ix_(owners, owners)] = True
     return np.asarray(same)
 
 
 # ---------------------------------------------------------------- retrieval
-
 
 TOP = (1, 5, 10)
 RESAMPLES = 500
@@ -208,14 +195,8 @@ def by_song(
 ) -> Estimate:
     """A figure of queries with a bootstrap interval over songs.
 
-    Queries of one song are not independent, so whole songs are drawn again (Field and Welsh 2007,
-    cluster bootstrap). `count` is the number of songs.
-
-    Args:
-        values: [Q].
-        songs: of each query.
-        statistic: mean, or median.
-        seed: of the resampling.
+    Queries [Q] of one song are not independent, so whole songs are drawn again (Field and Welsh
+    2007, cluster bootstrap). `count` is the number of songs.
     """
     names, owner = np.unique(np.asarray(songs), return_inverse=True)
     groups = [values[owner == number] for number in range(len(names))]
@@ -229,19 +210,10 @@ def by_song(
 def retrieval_figures(
     found: Sequence[Ranks], songs: Sequence[str], *, seed: int = 0
 ) -> dict[str, Estimate]:
-    """`r_at_1`, `r_at_5`, `r_at_10` (fractions) and `median_rank` over all batches.
-
-    Args:
-        found: of each batch.
-        songs: of each query, batch after batch.
-        seed: of the resampling.
-    """
-    figures = {
-        f"r_at_{k}": by_song(
-            np.concatenate([part.hits(k) for part in found]), songs, np.mean, seed=seed
-        )
-        for k in TOP
-    }
+    """`r_at_1`, `r_at_5`, `r_at_10` (fractions) and `median_rank` over all batches; `songs`: of
+    each query, batch after batch."""
+    hits = {f"r_at_{k}": np.concatenate([part.hits(k) for part in found]) for k in TOP}
+    figures = {key: by_song(values, songs, np.mean, seed=seed) for key, values in hits.items()}
     places = np.concatenate([part.mean() for part in found])
     return figures | {"median_rank": by_song(places, songs, np.median, seed=seed)}
 
@@ -268,26 +240,17 @@ class Bench:
 
         With fewer phrases than a batch there is one batch of all.
         """
-        number = len(windows.records)
-        batch = min(batch, number)
-        rng = np.random.default_rng(seed)
-        batches = []
+        records, rng = windows.records, np.random.default_rng(seed)
+        drawn = []
         for _ in range(replications):
-            order = rng.permutation(number)[: number // batch * batch].reshape(-1, batch)
-            for phrases in order:
+            for phrases in batches(len(records), min(batch, len(records)), rng):
                 shown = [rng.choice(windows.of_phrase[phrase]) for phrase in phrases]
-                batches.append(np.array(shown))
+                drawn.append(np.array(shown))
         phrase = np.array([window.phrase for window in windows.items])
-        drawn = phrase[np.concatenate(batches)]
-        tags = np.array([record.tag for record in windows.records])
-        return cls(
-            batches,
-            phrase,
-            [song_of(windows.records[p]) for p in drawn],
-            related(windows.records),
-            (tags[:, None] == tags[None]) & (tags != "")[:, None],
-            seed,
-        )
+        songs = [song_of(records[p]) for p in phrase[np.concatenate(drawn)]]
+        tags = np.array([record.tag for record in records])
+        same_action = (tags[:, None] == tags[None]) & (tags != "")[:, None]
+        return cls(drawn, phrase, songs, related(records), same_action, seed)
 
     def measure(
         self, query: Tensor, items: Tensor, *, by_action: bool = False, shuffled: bool = False
@@ -315,16 +278,8 @@ class Bench:
 def in_common(
     windows: Windows, bench: Bench, sound: Tensor, motion: Tensor, *, shuffled: bool = False
 ) -> Figures:
-    """What each sound's nearest motion of another song has in common with its own.
-
-    Args:
-        sound, motion: keys [N,D].
-        shuffled: another sound asks in each one's place.
-
-    Returns:
-        tempo: octaves between the songs' tempi, half and double tempo being the same; speed: m/s
-        between the motions' mean speeds over ground; action: share of the same tag.
-    """
+    """What each sound's nearest motion of another song has in common with its own; keys [N,D].
+    `shuffled`: another sound asks in each one's place."""
     given = []
     for asking, asked, phrases in bench.questions(shuffled=shuffled):
         similarity = sound.numpy()[asking] @ motion.numpy()[asked].T  # M M
@@ -337,29 +292,15 @@ def in_common(
     speed = np.array([np.hypot(r[:, FORWARD], r[:, LATERAL]).mean() for r in root])  # N
     octaves = np.log2(tempo[found] / tempo[own])
     values = {
-        "tempo": np.abs(octaves - np.rint(octaves)),
-        "speed": np.abs(speed[found] - speed[own]),
+        "tempo": np.abs(octaves - np.rint(octaves)),  # half and double tempo are the same
+        "speed": np.abs(speed[found] - speed[own]),  # m/s over ground
         "action": (tag[found] == tag[own]).astype(float),
     }
-    return {
-        key: by_song(each, bench.songs, np.mean, seed=bench.seed) for key, each in values.items()
-    }
-
-
-# ---------------------------------------------------------------- the suite
+    return {k: by_song(each, bench.songs, np.mean, seed=bench.seed) for k, each in values.items()}
 
 
 TEMPO_WIDTH = 0.05  # of the kernel, in log tempo: 5%
 SPACE, TEMPO, UNTRAINED, CHANCE = "shared space", "tempo alone", "untrained tower", "chance"
-COLUMNS = (
-    *(Column(f"r_at_{k}", f"R@{k}", 3, "high") for k in TOP),
-    Column("median_rank", "median rank", 1, "low"),
-)
-NEAREST = (
-    Column("tempo", "tempo off (octaves)", 3, "low"),
-    Column("speed", "speed off (m/s)", 3, "low"),
-    Column("action", "same action", 3, "high"),
-)
 
 
 @dataclass(frozen=True)
@@ -391,25 +332,25 @@ def evaluate_space(
     settings: SpaceSettings | None = None,
     about: dict[str, str] | None = None,
     progress: Progress = lambda text: None,
-) -> dict[str, object]:
-    """Measure a space on one split of prepared phrases.
+) -> Report:
+    """Measure a space on one split of prepared phrases; plain data, see `report_data`.
 
     Args:
         space: on the CPU.
         data: folder of `prepare-audio`, with bodies.
         split: whose songs and clips no training saw: test, or val.
         texts: measure text as well, if every phrase has a caption.
-        about: what is measured with what.
 
-    Returns:
-        Plain data, see `report_data`.
-
-    Raises:
-        UserError: no such phrases, no bodies, or a text tower of another space.
+    Raises UserError: no such phrases, no bodies, or a text tower of another space.
     """
     settings = settings or SpaceSettings()
     progress(f"reading {data}")
-    held_out, train = (_windows(data, part, settings) for part in (split, "train"))
+    splits = (MotionPhraseDataset(data, split=part, bodies=True, cache_in_memory=False)
+              for part in (split, "train"))  # fmt: skip
+    low, high = settings.min_frames, settings.max_frames
+    held_out, train = (
+        Windows.cut(each, bars=settings.bars, min_frames=low, max_frames=high) for each in splits
+    )
     amount = {"batch": settings.batch, "replications": settings.replications}
     bench = Bench.draw(held_out, **amount, seed=settings.seed)
     progress(f"embedding {len(held_out.items)} windows of {len(held_out.records)} phrases")
@@ -435,30 +376,19 @@ def evaluate_space(
             _table(bench, "sound → text", sounds, text, by_action=True),
             _table(bench, "text → motion", text, {SPACE: motion, UNTRAINED: blind}, by_action=True),
         ]
-    tables.append(_nearest(held_out, bench, sounds, motion))
+    rows = {}
+    for name, keys in {**sounds, CHANCE: sounds[SPACE]}.items():
+        rows[name] = GridRow(in_common(held_out, bench, keys, motion, shuffled=name == CHANCE))
+    tables.append(Grid.of("nearest", rows))
     songs = len({record.song for record in held_out.records})
     facts = {"split": split, "phrases": len(held_out.records), "songs": songs}
     facts |= {"windows": len(held_out.items), "fingerprint": space.fingerprint}
     return report_data("space", {**(about or {}), **facts}, asdict(settings), tables, [])
 
 
-def _windows(data: str, split: str, settings: SpaceSettings) -> Windows:
-    return Windows.cut(
-        MotionPhraseDataset(data, split=split, bodies=True, cache_in_memory=False),
-        bars=settings.bars,
-        min_frames=settings.min_frames,
-        max_frames=settings.max_frames,
-    )
-
-
 def tempo_alone(train: Windows, motion: Tensor, held_out: Windows) -> Tensor:
-    """What motion to expect at a tempo [N,D]: Nadaraya-Watson regression on the training windows.
-
-    Args:
-        train: windows with tempi.
-        motion: their keys [N',D].
-        held_out: windows with tempi that are asked about.
-    """
+    """What motion to expect at a tempo [N,D]: Nadaraya-Watson regression on the training windows,
+    whose keys are `motion` [N',D]."""
     known, asked = (
         torch.tensor([w.records[i.phrase].tempo for i in w.items]).clamp_min(1.0).log()
         for w in (train, held_out)
@@ -479,29 +409,10 @@ def _table(
     """One direction; the side with several rows names them."""
     count, runs = len(bench.songs), len(bench.batches)
     names = list(query if len(query) > 1 else items)
-    found = {
-        name: bench.measure(
-            query.get(name, query[SPACE]),
-            items.get(name, items[SPACE]),
-            by_action=by_action,
-            shuffled=name == CHANCE,
-        )
-        for name in [*names, CHANCE]
-    }
-    rows = {name: GridRow(cells, count // runs, runs) for name, cells in found.items()}
-    note = "Of the same song or clip: neither right nor wrong. A real row would be 1 throughout."
-    if by_action:
-        note += " Nor are phrases of the same action: a caption fits them all."
-    return Grid(title, title, COLUMNS, rows, note, head="keys")
-
-
-def _nearest(windows: Windows, bench: Bench, sounds: dict[str, Tensor], motion: Tensor) -> Grid:
-    found = {name: in_common(windows, bench, keys, motion) for name, keys in sounds.items()}
-    found[CHANCE] = in_common(windows, bench, sounds[SPACE], motion, shuffled=True)
-    rows = {name: GridRow(cells) for name, cells in found.items()}
-    own = (
-        "The nearest motion of another song and other clips, held against the sound's own motion,"
-        " which would be the real row: 0, 0 and 1."
-    )
-    title = "what the nearest motion has in common"
-    return Grid("nearest", title, NEAREST, rows, own, "keys of sound")
+    rows = {}
+    for name in [*names, CHANCE]:
+        sides = query.get(name, query[SPACE]), items.get(name, items[SPACE])
+        cells = bench.measure(*sides, by_action=by_action, shuffled=name == CHANCE)
+        rows[name] = GridRow(cells, count // runs, runs)
+    nor = " Nor are phrases of the same action: a caption fits them all." if by_action else ""
+    return Grid.of("space", rows, {"by_action": nor}, name=title, title=title)

@@ -69,7 +69,7 @@ class TextSettings:
 
 @dataclass(frozen=True, eq=False)
 class TextContext:
-    """Everything a table of the text branch may draw on."""
+    """Clips, judge and samplers of the text branch, and the tables with rows of their own."""
 
     held_out: HeldOut  # clips that no training saw
     judge: Evaluator
@@ -93,10 +93,7 @@ class TextContext:
 
     def clips(self, records: Sequence[ClipRecord], language: str) -> Clips:
         """Real clips with a caption in this language, spread over label groups.
-
-        Raises:
-            UserError: there is none.
-        """
+        Raises UserError: there is none."""
         most = {"num": self.settings.max_real, "max_frames": self.settings.max_frames}
         data, seed = self.held_out.data, self.settings.seed
         return real_clips(data, records, **most, language=language, seed=seed)
@@ -118,6 +115,62 @@ class TextContext:
         """What a sampler makes of the captions of a sample, at its lengths."""
         return self.with_motions(asked, sampler(asked.clips.captions, asked.clips.num_frames, seed))
 
+    # ---------------------------------------------------------------- tables with rows of their own
+
+    def languages(self) -> list[Grid]:
+        """R-precision at 3 by language on seen combinations: real, chance, generated, untrained."""
+        settings = self.settings
+        if not settings.language_samples:
+            return []
+        rows = {}
+        for language in settings.languages:
+            found = self.parts.once(f"languages.{language}", partial(self._language, language))
+            if found["cells"]:
+                rows[language] = GridRow(found["cells"], found["num"], 1)
+        made_by = ["generated", *([UNTRAINED] if self.untrained else [])]
+        columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
+        seed = {"seed": settings.seed}
+        return [Grid.of("languages", rows, seed, columns=columns)] if rows else []
+
+    def _language(self, language: str) -> Part:
+        """The cells of one language; none where the data has too few captions in it."""
+        settings, seed = self.settings, self.settings.seed
+        num = min(settings.language_samples, settings.num_samples)
+        try:
+            real = self.real(self.held_out.records["seen"], language)
+        except UserError:
+            return {"cells": None}  # the data has no captions in this language
+        if min(len(real), num) < BATCH:
+            return {"cells": None}
+        self.progress(f"languages: {num} motions in {language}")
+        asked = real.rows([row % len(real) for row in range(num)])
+        order = np.random.default_rng(seed).permutation(len(real)).tolist()
+        samples = {"real": real, "chance": real.reordered(order)}
+        for name, sampler in (("generated", self.sampler), (UNTRAINED, self.untrained)):
+            if sampler is not None:
+                samples[name] = self.made(asked, sampler, seed)
+        at_3 = {n: bootstrap_mean(r_precision(each, seed)[2]) for n, each in samples.items()}
+        score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
+        return {"cells": plain({**at_3, "normalised": score}), "num": num}
+
+    def control(self) -> list[Grid]:
+        """Success rates task by task and language by language."""
+        settings = self.settings
+        if not settings.control_seeds:
+            return []
+        grid = control_grid(
+            self.sampler,
+            CaptionBook.load(None),
+            self.clips(self.held_out.everything, settings.language),
+            languages=settings.languages,
+            num_seeds=settings.control_seeds,
+            seed=settings.seed,
+            untrained=self.untrained,
+            progress=self.progress,
+            once=self.parts.once,
+        )
+        return [grid]
+
 
 @dataclass(frozen=True, eq=False)
 class Split:
@@ -132,11 +185,7 @@ class Split:
 
     @cached_property
     def reference(self) -> MotionSample:
-        """The real clips.
-
-        Raises:
-            UserError: the split holds no captioned clip.
-        """
+        """The real clips. Raises UserError: the split holds no captioned clip."""
         return self.context.real(self.records, self.context.settings.language)
 
     @cached_property
@@ -183,10 +232,17 @@ class Split:
         for label, sampler in samplers.items():
             limit = settings.untrained if label == UNTRAINED else None
             rows.append(Row(label, partial(self.generated, sampler), limit=limit))
+
+        def summary(grids: Sequence[Grid]) -> Grid:
+            """What a reader asks first: each row against real and chance."""
+            rows = {each: GridRow(scores(grids, each)) for each in (*samplers, "frozen pose")}
+            columns = tuple(Column(k, k.replace("_", " ")) for k in rows["frozen pose"].cells)
+            return Grid.of("scores", rows, {"split": name}, name=f"{name}/scores", columns=columns)
+
         return Bench(
             name, f"{name} label combinations", lambda: self.reference, rows, TEXT_FAMILIES,
             main=next(iter(samplers)), write=write_motion, worst=settings.worst, optional=True,
-            summary=lambda grids: score_grid(name, grids, [*samplers, "frozen pose"]),
+            summary=summary,
         )  # fmt: skip
 
 
@@ -202,13 +258,8 @@ def evaluate_samplers(
     about: Mapping[str, Any] | None = None,
     sources: Callable[[], Sources] | None = None,
 ) -> Report:
-    """The whole report as plain data, see `report_data`.
-
-    Args:
-        context: samplers, clips and amounts.
-        about: what to repeat in the report: model, its hash, steps, guidance scale.
-        sources: for the manifest of the folder; None = no manifest.
-    """
+    """The whole report as plain data; `about` is what to repeat of the model, `sources` are for the
+    manifest of the folder."""
     held_out = context.held_out
     facts = {
         **(about or {}),
@@ -220,14 +271,11 @@ def evaluate_samplers(
         "text",
         asdict(context.settings),
         [Split(context, records).bench(name) for name, records in held_out.records.items()],
-        {"languages": partial(languages, context), "controllability": partial(control, context)},
+        {"languages": context.languages, "controllability": context.control},
         facts,
         sources=sources,
     )
     return run_suite(suite, context.parts, context.progress)
-
-
-# ---------------------------------------------------------------- by names
 
 
 def evaluate_text(
@@ -253,9 +301,8 @@ def evaluate_text(
         folder: of the report: finished parts are kept there and not measured again.
         sampling: steps, sampler, guidance_scale, foot_lock; left out = the model's own.
 
-    Raises:
-        UserError: no such model, evaluator or data, the model is untrained, or the folder holds
-            another report.
+    Raises UserError: no such model, evaluator or data, the model is untrained, or the folder holds
+    another report.
     """
     from ...model.generation.motion_generator import TextToMotion
 
@@ -282,14 +329,12 @@ def evaluate_text(
     def sources() -> Sources:
         from ...model.checkpoint import resolve_model
 
-        splits = {
-            name: manifest.hash_names(record.id for record in records)
-            for name, records in held_out.records.items()
-        }
+        splits = held_out.records.items()
+        ids = {name: manifest.hash_names(each.id for each in records) for name, records in splits}
         return Sources(
             model=manifest.folder_hashes(resolve_model(model)),
             evaluator=manifest.folder_hashes(evaluator_folder(evaluator)),
-            data={"manifest": held_out.data.manifest_hash, **splits},
+            data={"manifest": held_out.data.manifest_hash, **ids},
             statistics=(generator.mean, generator.std, judge.motion.mean, judge.motion.std),
             sampling=sampling,
             device=str(generator.device),
@@ -337,22 +382,6 @@ def model_sampler(generator: "TextToMotion", **sampling: Any) -> Sampler:
     return sample
 
 
-# ---------------------------------------------------------------- tables
-
-
-def score_grid(split: str, grids: Sequence[Grid], names: Sequence[str]) -> Grid:
-    """What a reader asks first: each row against real and chance."""
-    rows = {name: GridRow(scores(grids, name)) for name in names}
-    columns = tuple(Column(key, key.replace("_", " ")) for key in rows[names[0]].cells)
-    note = (
-        "normalised: (row - chance) / (real - chance). joint ratio: joint FD over that of real"
-        " motions under shuffled labels; tag ratio: FD by tag over FD by wrong tag; the others:"
-        " row over real. Real motion is 1 (near 0 in joint and tag ratio); chance is 0 where"
-        " normalised, 1 in the joint ratio. Of the tables above, where the intervals are."
-    )
-    return Grid(f"{split}/scores", f"{split}: against real and chance", columns, rows, note)
-
-
 def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
     """Row `name` against real and chance; NaN where a column is missing."""
 
@@ -363,79 +392,13 @@ def scores(grids: Sequence[Grid], name: str) -> dict[str, float]:
     def over(numerator: float, denominator: float) -> float:
         return numerator / denominator if denominator > 1e-9 else float("nan")
 
-    result = {
-        f"normalised_{key}": normalised_score(
-            *(value(row, key) for row in (name, "chance", "real"))
-        )
-        for key in ("r_at_1", "r_at_2", "r_at_3")
-    }
+    result = {}
+    for key in ("r_at_1", "r_at_2", "r_at_3"):
+        cells = (value(row, key) for row in (name, "chance", "real"))
+        result[f"normalised_{key}"] = normalised_score(*cells)
     joint, wrong_tag = value("chance", "frechet_joint"), value(name, "frechet_by_wrong_tag")
     result["frechet_joint_ratio"] = over(value(name, "frechet_joint"), joint)
     result["frechet_tag_ratio"] = over(value(name, "frechet_by_tag"), wrong_tag)
     for column in RATIOS:
         result[f"{column}_ratio"] = over(value(name, column), value("real", column))
     return result
-
-
-def languages(context: TextContext) -> list[Grid]:
-    """R-precision at 3 by language on seen combinations: real, chance, generated, untrained."""
-    settings = context.settings
-    if not settings.language_samples:
-        return []
-    rows = {}
-    for language in settings.languages:
-        found = context.parts.once(f"languages.{language}", partial(_language, context, language))
-        if found["cells"]:
-            rows[language] = GridRow(found["cells"], found["num"], 1)
-    made_by = ["generated", *([UNTRAINED] if context.untrained else [])]
-    columns = tuple(Column(key, key) for key in ("real", "chance", *made_by, "normalised"))
-    note = (
-        "One replication; ± is 95% over prompts. normalised: (generated - chance) / (real -"
-        f" chance). Seed {settings.seed}; real and chance over all real clips."
-    )
-    title = "R@3 by language (seen combinations)"
-    return [Grid("languages", title, columns, rows, note, "language")] if rows else []
-
-
-def _language(context: TextContext, language: str) -> Part:
-    """The cells of one language; none where the data has too few captions in it."""
-    settings = context.settings
-    num = min(settings.language_samples, settings.num_samples)
-    try:
-        real = context.real(context.held_out.records["seen"], language)
-    except UserError:
-        return {"cells": None}  # the data has no captions in this language
-    if min(len(real), num) < BATCH:
-        return {"cells": None}
-    context.progress(f"languages: {num} motions in {language}")
-    asked = real.rows([row % len(real) for row in range(num)])
-    order = np.random.default_rng(settings.seed).permutation(len(real)).tolist()
-    samples = {"real": real, "chance": real.reordered(order)}
-    for name, sampler in (("generated", context.sampler), (UNTRAINED, context.untrained)):
-        if sampler is not None:
-            samples[name] = context.made(asked, sampler, settings.seed)
-    at_3 = {
-        name: bootstrap_mean(r_precision(sample, settings.seed)[2])
-        for name, sample in samples.items()
-    }
-    score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
-    return {"cells": plain({**at_3, "normalised": score}), "num": num}
-
-
-def control(context: TextContext) -> list[Grid]:
-    """Success rates task by task and language by language."""
-    settings = context.settings
-    if not settings.control_seeds:
-        return []
-    grid = control_grid(
-        context.sampler,
-        CaptionBook.load(None),
-        context.clips(context.held_out.everything, settings.language),
-        languages=settings.languages,
-        num_seeds=settings.control_seeds,
-        seed=settings.seed,
-        untrained=context.untrained,
-        progress=context.progress,
-        once=context.parts.once,
-    )
-    return [grid]

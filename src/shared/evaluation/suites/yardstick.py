@@ -6,6 +6,7 @@ Letters: N motions, F features.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 import numpy as np
 
@@ -15,15 +16,7 @@ from ...errors import UserError
 from ...metrics.kinetic import FeatureSpace, kinetic_features
 from ...metrics.physical import worst_acceleration
 from ...motion.motion import Motion
-from ..actions import (
-    MIN_FRAMES,
-    ActionRecognizer,
-    as_asked,
-    descriptor,
-    examples,
-    judged_by,
-    shown,
-)
+from ..actions import MIN_FRAMES, ActionRecognizer, as_asked, descriptor, examples, judged_by, shown
 from ..engine import Progress
 from ..samples import spread_over_groups
 from .text import LANGUAGES
@@ -87,10 +80,7 @@ class Yardstick:
 
     def __init__(self, data: PreparedData, settings: RequestSettings, progress: Progress) -> None:
         """Read the clips and fit the judge.
-
-        Raises:
-            UserError: too few captured clips are held back.
-        """
+        Raises UserError: too few captured clips are held back."""
         self.data, self.settings = data, settings
         self.longest = round(settings.seconds * 30)
         train = [r for r in data.records("train") if r.tag and r.num_frames >= MIN_FRAMES]
@@ -107,12 +97,9 @@ class Yardstick:
             ) from error
         self.judge = self.recognizer.judge
         self.space = FeatureSpace.fit(self.known.features, np.zeros(self.known.features.shape[1]))
-        held = [
-            r
-            for split in ("test_seen", "test_unseen", "val")
-            for r in data.records(split)
-            if r.provenance == "captured" and r.tag in self.captured and r.num_frames >= MIN_FRAMES
-        ]
+        kept_back = chain.from_iterable(map(data.records, ("test_seen", "test_unseen", "val")))
+        held = [r for r in kept_back if r.provenance == "captured" and r.tag in self.captured
+                and r.num_frames >= MIN_FRAMES]  # fmt: skip
         if len(held) < 2:
             raise UserError(
                 f"{data.folder} holds no captured clip back from training; prepare more of them"
@@ -158,11 +145,9 @@ class Yardstick:
                   for clips, records in sources]  # fmt: skip
         answers = []
         for tag, point in zip(tags, self.space(seen.features), strict=True):
-            captured, made = (
-                np.linalg.norm(there[names == tag] - point, axis=1) for there, names in points
-            )
-            both = len(captured) and len(made)
-            answers.append(float(made.min() < captured.min()) if both else np.nan)
+            away = [np.linalg.norm(there[names == tag] - point, axis=1) for there, names in points]
+            known = all(map(len, away))
+            answers.append(float(away[1].min() < away[0].min()) if known else np.nan)
         return np.array(answers)
 
     def points(self, seen: Seen) -> tuple[np.ndarray, np.ndarray]:

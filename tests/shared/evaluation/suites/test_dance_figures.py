@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from src.shared.evaluation.families_dance import BODY_RHYTHM, FEET, ON_THE_PATH
+from src.shared.evaluation.families import BODY_RHYTHM, FEET, ON_THE_PATH
 from src.shared.evaluation.samples import Dance, DanceSample, held_still
 from src.shared.evaluation.suites.dance import effect, hard_cuts, near_seams, seam_grid
 from src.shared.metrics.retrieval import rank_of
@@ -160,7 +160,7 @@ def test_only_who_listens_is_found_by_its_prompt(listens: bool) -> None:
         songs += text[0]
     found = effect(songs, np.full((3, 16), 0.5), np.zeros((3, 16)), text)
     if listens:
-        assert found["gain"]["low"] > 1 and found["r_at_1"]["value"] == 1
+        assert found["gain"].low > 1 and found["r_at_1"].value == 1
     else:
-        assert abs(found["gain"]["value"]) < 0.02 and found["r_at_1"]["value"] < 0.3
-    assert found["f"]["value"] == 0.5
+        assert abs(found["gain"].value) < 0.02 and found["r_at_1"].value < 0.3
+    assert found["f"].value == 0.5
