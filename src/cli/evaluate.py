@@ -354,9 +354,8 @@ def compare(
     options.check_folder("--out", out)
     folders = [report_of(name, side, request, out) for side, name in (("a", a), ("b", b))]
 
-    from ..shared.evaluation.compare import Side
-    from ..shared.evaluation.compare import compare as differences
-    from ..shared.evaluation.pages import save_report
+    from ..shared.evaluation.pages import Side, save_report
+    from ..shared.evaluation.pages import compare as differences
 
     result = differences(Side(folders[0], row), Side(folders[1], other_row or row), seed=seed)
     save_report(result, out)

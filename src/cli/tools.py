@@ -25,10 +25,9 @@ from .evaluate_suites import (
 )
 from .generate import generate
 from .memory import memory
-from .models import calibrate, export_onnx, models, studio
+from .models import calibrate, export_onnx, models, shape_check, studio
 from .options import Command, SuiteCommand
 from .prepare import features, prepare, prepare_audio
-from .shape_check import shape_check
 from .stream import stream
 
 PROGRAM = "motion-tools"

@@ -9,7 +9,7 @@ are open for texts that come out there and closed for all others: of what the mo
 changes. No clip that it was trained on is needed. With `actions=` it is known actions that are
 learned better, in adapters at the places that they have; with `styles=` those of their clips in
 these styles, at places where nothing else comes out, or, `styles=plain`, in none. A style that was
-given the very place of plain clips (captured_places.py) moves aside. With
+given the very place of plain clips (places.py) moves aside. With
 `captured-share=1` the captured clips of an action that has some are all that is learned of it.
 
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
@@ -38,11 +38,10 @@ from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion
-from .captured_places import apart
 from .launch import Stage
+from .places import apart, old_captions, pooled, with_new_places, within_reach
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
-from .taught_tower import old_captions, pooled, with_new_places, within_reach
 from .text_stages import (
     as_features,
     fit_warnings,
@@ -112,7 +111,7 @@ class ActionTask(Task):
         self.tags = (
             self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
         )
-        self.tower, place_of = self._known_tower() if config.actions else self._taught_tower()
+        self.tower, place_of = self._known_tower() if config.actions else self._places()
         self.places = torch.stack([place_of[record.group] for record in self.train.records])
         self.row_of = {record.id: row for row, record in enumerate(self.train.records)}
         self.network = self._adapted_network(network)
@@ -176,7 +175,7 @@ class ActionTask(Task):
 
     # ------------------------------------------------------------ the text tower
 
-    def _taught_tower(self) -> tuple[TextTower, dict[str, Tensor]]:
+    def _places(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower with a place for each new combination; and the place [D] of every group."""
         groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records}
         captions = {group: self._asked(record) for group, record in groups.items()}

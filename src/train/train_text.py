@@ -52,8 +52,8 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
-from .captured_places import apart, fuller_sides, nearest_styles, with_sentences, with_unstyled
 from .launch import Stage
+from .places import apart, fuller_sides, nearest_styles, with_sentences, with_unstyled
 from .task import Part, Task, numpy_generator
 from .text_stages import (
     MEANS_FILE,

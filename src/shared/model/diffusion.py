@@ -45,13 +45,12 @@ class Sampling:
     guidance_scale: float | None = None
 
     def __post_init__(self) -> None:
-        given: dict[str, Any] = vars(self)
         for name, least in (("seed", 0), ("steps", 1)):
-            value = given[name]
+            value: Any = getattr(self, name)
             whole = isinstance(value, Integral) and least <= int(value) < 2**64
             if not whole and (value is not None or name == "seed"):
                 raise UsageError(f"{name} {value!r} must be a whole number, {least} or more")
-        scale = given["guidance_scale"]
+        scale: Any = self.guidance_scale
         if scale is not None and not (isinstance(scale, Real) and 0 <= float(scale) < math.inf):
             raise UsageError(f"guidance-scale {scale!r} must be a number, 0 or more")
 
@@ -190,9 +189,8 @@ class GaussianDiffusion(nn.Module):
 
     def q_sample(self, x_0: Tensor, t: Tensor, noise: Tensor | None = None) -> Tensor:
         """Noise x_0 [B, ...] to step t [B]: a * x_0 + s * noise (Ho et al. 2020, eq. 4)."""
-        if noise is None:
-            noise = torch.randn_like(x_0)
         signal_scale, noise_scale = self._scales(t, x_0)
+        noise = torch.randn_like(x_0) if noise is None else noise
         return signal_scale * x_0 + noise_scale * noise
 
     def target(self, x_0: Tensor, noise: Tensor, t: Tensor) -> Tensor:
@@ -312,12 +310,10 @@ class GaussianDiffusion(nn.Module):
         if t is None:
             steps = torch.randint(self.config.timesteps, (len(x_0),), generator=generator)
             t = steps.to(self.betas.device)
-        if noise is None:
-            noise = (
-                torch.randn_like(x_0)
-                if generator is None
-                else standard_normal(x_0.shape, generator, device=x_0.device)
-            )
+        if noise is None and generator is None:
+            noise = torch.randn_like(x_0)
+        elif noise is None:
+            noise = standard_normal(x_0.shape, generator, device=x_0.device)
         output = with_condition(model, condition)(self.q_sample(x_0, t, noise), t)
         return self.loss(output, self.target(x_0, noise, t), mask=mask, time_dim=time_dim)
 
@@ -342,9 +338,8 @@ class GaussianDiffusion(nn.Module):
     ) -> Tensor:
         """One DDPM step from x_t [B, ...] to x_{t-1}; t [B] may differ from row to row."""
         output = with_condition(self.denoiser(model), condition)(x_t, t)
-        mean, variance = self.q_posterior(
-            self.predict_x0(output, x_t, t, clip=clip_denoised), x_t, t
-        )  # the variance is 0 at t = 0
+        x_0 = self.predict_x0(output, x_t, t, clip=clip_denoised)
+        mean, variance = self.q_posterior(x_0, x_t, t)  # the variance is 0 at t = 0
         return mean + variance.sqrt() * standard_normal(x_t.shape, generator, device=x_t.device)
 
     def ddim_sample(

@@ -9,10 +9,9 @@ import pytest
 
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation import manifest
-from src.shared.evaluation.compare import Side, compare, verdict
 from src.shared.evaluation.engine import run_bench
 from src.shared.evaluation.manifest import Parts, read_json
-from src.shared.evaluation.pages import render, save_report
+from src.shared.evaluation.pages import Side, compare, render, save_report, verdict
 from src.shared.evaluation.stats import Difference
 from src.shared.evaluation.tables import (
     Column,

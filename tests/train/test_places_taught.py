@@ -5,8 +5,7 @@ from src.shared.model.clip.core import TextTower
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.model.clip.pretrained import encode_captions, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.train.captured_places import apart
-from src.train.taught_tower import old_captions, with_new_places, within_reach
+from src.train.places import apart, old_captions, with_new_places, within_reach
 from src.train.train_action import KEPT
 
 

@@ -13,7 +13,7 @@ from torch.nn.functional import normalize
 from src.shared.data.prepared import PreparedData
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.train import train_text
-from src.train.captured_places import apart, fuller_sides, nearest_styles, with_unstyled
+from src.train.places import apart, fuller_sides, nearest_styles, with_unstyled
 from src.train.train_text import TextTask, open_tower
 
 
