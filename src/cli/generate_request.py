@@ -209,9 +209,12 @@ class Request:
     def generator(self) -> "MotionGenerator":
         """With these models; none is loaded yet."""
         from ..shared.device import set_threads
+        from ..shared.model.checkpoint import resolve_model
         from ..shared.pipelines.motion_generator import MotionGenerator
 
         set_threads(self.threads)
+        if self.audio and self.model is not None:  # which a dance in figures would never ask
+            resolve_model(self.model)
         settings = self.post_processing or []
         return MotionGenerator(
             self.text_model,

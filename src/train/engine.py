@@ -202,6 +202,7 @@ class Trainer(Generic[ConfigT]):
         self.accelerator = make_accelerator(config, compute)
         processes = self.accelerator.num_processes
         announce(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
+        announce(f"writing to {self.output}")
         with self.accelerator.main_process_first():
             torch.manual_seed(mix_seed("weights", config.seed))
             self.task = build(config)

@@ -86,6 +86,7 @@ class RunLog:
         """Open the log where a run goes on; `validate`: the figures of `start` come again."""
         self._main = main
         self._seconds = time.perf_counter()
+        self._start, self._steps = start, steps
         self._interactive = main and sys.stderr.isatty()
         self._writer: Any | None = None
         self._progress = Progress(
@@ -138,7 +139,16 @@ class RunLog:
         if self._interactive and "loss" in values:
             self._progress.update(self._bar, description=f"loss {values['loss']:.4f}")
         else:
-            announce(f"step {step}  {text}")
+            announce(f"step {step} of {self._steps}  {text}{self._left(step)}")
+
+    def _left(self, step: int) -> str:
+        """Of the time that a run will take, as its steps so far tell."""
+        if not self._start < step < self._steps:
+            return ""
+        each = (time.perf_counter() - self._seconds) / (step - self._start)
+        seconds = each * (self._steps - step)
+        left = f"{seconds:.0f} s" if seconds < 100 else f"{seconds / 60:.0f} min"
+        return f"  about {left} left"
 
 
 ROWS = {  # of the table: figure, name

@@ -331,6 +331,8 @@ def resolve_model(name_or_folder: str | Path) -> Path:
             f" `motion-tools train generation --network-profile {name}`"
             f" and name the run's folder{use}"
         )
+    if (folder / "checkpoints").is_dir():
+        raise UserError(f"{folder} is a training that has not ended; finish it by --resume")
     if folder.is_dir():
         raise UserError(f"{folder} {NO_MODEL}")
     hint = did_you_mean(name, shipped)

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
@@ -18,6 +19,7 @@ _CLIP_KEYS = ("clip", "file", "id", "name")
 _CAPTION_KEYS = ("caption", "text", "description")
 LABEL_KEYS = ("action", "side", "direction", "count", "turn", "angle", "speed", "style", "kind",
               "terrain")  # fmt: skip
+SIDES = ("left", "right", "both")
 _KEYS = {**dict.fromkeys(_CLIP_KEYS, "clip"), **dict.fromkeys(_CAPTION_KEYS, "caption")} | {
     key: key for key in ("language", "start", "end", "repeat", "hold", "provenance", *LABEL_KEYS)
 }
@@ -113,6 +115,8 @@ def _piece(path: Path, row: _Row) -> tuple[str, Piece]:
     labels = {key: cells[key].strip() for key in LABEL_KEYS if cells.get(key, "").strip()}
     if not clip or not (texts or "action" in labels):
         raise UserError(f"{place}: no clip or no caption; give both, or an action for a caption")
+    if (side := labels.get("side", "left")) not in SIDES:
+        raise UserError(f"{place}: side {side!r} is none; choose from {', '.join(SIDES)}")
     start = _number(place, "start", cells, 0.0)
     end = _number(place, "end", cells, math.inf)
     if not 0 <= start < end:
@@ -236,10 +240,22 @@ def _table_rows(path: Path, text: str, delimiter: str) -> list[_Row]:
     columns = ["clip", "caption", "language"]
     header = [_KEYS.get(cell.strip().lower(), "") for cell in lines[0][1]] if lines else []
     if "clip" in header and {"caption", "action"} & set(header):
+        _check_columns(path, [cell.strip().lower() for cell in lines[0][1]], header)
         columns, lines = header, lines[1:]
     cells = [(number, [*zip(columns, row, strict=False)]) for number, row in lines]
     # Of several columns for one key the first counts.
     return [(f"line {number}", dict(reversed(pairs))) for number, pairs in cells]
+
+
+def _check_columns(path: Path, names: Sequence[str], header: Sequence[str]) -> None:
+    """Raises UserError: a column has nearly the name of one that is not there."""
+    absent = [name for name, key in _KEYS.items() if key not in header]
+    for name, key in zip(names, header, strict=True):
+        near = [] if key else get_close_matches(name, absent, n=1, cutoff=0.8)
+        if near:
+            raise UserError(
+                f"captions {path}: column {name!r} is unknown; rename it to {near[0]!r}"
+            )
 
 
 def _json_rows(path: Path, text: str) -> list[_Row]:

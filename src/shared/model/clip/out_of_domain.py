@@ -320,10 +320,8 @@ class OutOfDomainDetector:
                 f" {self.reliability[result.unreliable]:.0%} of tries; look at the motion before"
                 " you use it"
             )
-        return (
-            f"prompt {prompt!r} is far from anything this model was trained on;"
-            f" nearest known actions: {', '.join(result.nearest)}"
-        )
+        near = f"; nearest known actions: {', '.join(result.nearest)}" if result.nearest else ""
+        return f"prompt {prompt!r} is far from anything this model was trained on{near}"
 
     def save_pretrained(self, folder: str | Path) -> None:
         """Write scope.safetensors and scope.json into a model folder."""

@@ -166,3 +166,16 @@ def test_a_row_that_fits_a_file_of_each_source_is_refused() -> None:
         {},
         {"take1.bvh": {"en": ["walks"]}, "take2.bvh": {"en": ["runs"]}},
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        ("clip,action,captoin\na,walk,someone walks\n", "column 'captoin' .* to 'caption'"),
+        ("clip,caption,side\na,someone waves,lefft\n", "side 'lefft' .* choose from left"),
+    ],
+)
+def test_misspelt_columns_and_sides_are_named(tmp_path: Path, text: str, line: str) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(UserError, match=line):
+        read_captions(tmp_path / "a.csv")
