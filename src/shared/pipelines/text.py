@@ -286,7 +286,7 @@ class SentenceGenerator:
             seen = measure(motion)
             count = repetitions(action, seen, side) if clause.count > 1 else None
             found = float(wanted is not None and not wanted(seen))
-            if found and wanted:
+            if found and wanted and len(features) > latest:
                 # One bad window is none of those that follow, and feet are cleaned up yet: a walk
                 # whose height drifts by centimetres seems to fly.
                 window = self.generator.post_processor(features[-latest:], None)

@@ -267,8 +267,8 @@ export class Director {
       const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
       const count = clause.count > 1 ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));
-      if (found) // one bad window is none of those that follow, and feet are cleaned up yet
-        found = Number(!wanted(measure(postProcess(cut(features, Math.max(made - latest, 0), made), this.settings.post, {}))));
+      if (found && made > latest) // one bad window is none of those that follow, and feet are cleaned up yet
+        found = Number(!wanted(measure(postProcess(cut(features, made - latest, made), this.settings.post, {}))));
       if (count !== null) found = Math.abs(count - round((clause.count * made) / frames));
       return found + UNEASY * Number(rests && made >= frames && !endsAtRest(motion));
     };
