@@ -97,10 +97,10 @@ def stream(
 
     def listen() -> None:
         try:
-            for line in sys.stdin:
-                say(line)
-                if not sys.stdin.isatty():
+            for number, line in enumerate(sys.stdin):
+                if number and not sys.stdin.isatty():
                     body.wait(AFTER)  # so that each line of a file is seen
+                say(line)
         except (OSError, ValueError):  # closed while it was read
             pass
         if seconds is None and websocket is None:

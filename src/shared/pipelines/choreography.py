@@ -25,6 +25,7 @@ from ..config_loader import load_yaml, packaged_config
 from ..memory.figures import AXES, FPS, FigureMemory, Figures
 from ..motion.staging import PLAIN, Manner
 from .body import beats_beyond
+from .words import all_words
 
 PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
 WARP = 0.2  # of the tempo, at most
@@ -426,7 +427,7 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
         kinds: of the figures that there are; their own names are understood, too.
     """
     rest = unicodedata.normalize("NFC", sentence).casefold()
-    dances, wish, wanted = False, Wish(), set()
+    dances, said, wish, wanted = False, False, Wish(), set()
     names = {name.casefold(): ("kinds", name) for name in kinds}
     for word, (about, what) in sorted(
         (_words() | names).items(), key=lambda item: len(item[0]), reverse=True
@@ -436,6 +437,7 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
             continue
         rest = left
         dances |= about in ("dance", "kinds")
+        said |= about == "dance"
         if about == "kinds":
             wanted.add(what)
         elif about == "manners":
@@ -444,7 +446,9 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
         elif about in ENERGY_OF:
             wish = replace(wish, energy=ENERGY_OF[about])
     unread = " ".join(rest.split()) if _WORD.search(rest) else ""
-    if not dances or (unread and not wanted) or not wanted <= set(kinds):
+    if unread and not (wanted and (said or not _WORD.search(all_words().then.sub(" ", unread)))):
+        return None  # "an Indian man walks" dances nothing
+    if not dances or not wanted <= set(kinds):
         return None
     return replace(wish, kinds=frozenset(wanted), unread=unread)
 

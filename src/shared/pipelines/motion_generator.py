@@ -418,14 +418,15 @@ class MotionGenerator:
 def _texts(prompts: str | Sequence[str]) -> list[str]:
     if isinstance(prompts, str):
         return [prompts]
-    if not isinstance(prompts, Iterable) or not all(isinstance(each, str) for each in prompts):
+    found = list(prompts) if isinstance(prompts, Iterable) else [prompts]
+    if not all(isinstance(each, str) for each in found):
         raise UsageError(f"prompts is {prompts!r}; give a sentence, or a list of sentences")
-    return list(prompts)
+    return found
 
 
 def _lengths(seconds: float | Sequence[float], number: int) -> list[float]:
     """Of so many prompts, each a number of seconds that one can wait for."""
-    found: list[Any] = [*seconds] if isinstance(seconds, Sequence) else [seconds] * number
+    found: list[Any] = [*seconds] if isinstance(seconds, Iterable) else [seconds] * number
     if len(found) != number:
         raise UsageError(f"{len(found)} lengths for {number} prompts; give one for all or one each")
     for each in found:

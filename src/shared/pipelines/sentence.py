@@ -108,13 +108,13 @@ def _as_before(before: Clause, clause: Clause) -> Clause:
     """A clause that names nothing but a side ("and then to the left") does what the one before it
     does, to that side."""
     words = all_words()
-    if clause.degrees is not None or not _is_aside(clause.text, first=True):
+    if clause.degrees is not None or not words.sideways.match(clause.text):
         return clause
     said, other = (
         next(filter(None, (side.search(each.text) for side in (words.left, words.right))), None)
         for each in (clause, before)
     )
-    if said is None or other is None:
+    if said is None or other is None or words.no_side.search(before.text):
         return clause
     text = before.text
     return replace(clause, text=f"{text[: other.start()]}{said[0]}{text[other.end() :]}")
@@ -136,11 +136,16 @@ def tidied(sentence: str) -> str:
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     text = words.idiom.sub(lambda said: words.plainly[bare(_plain(said[0]))], text)
-    text = words.undone.sub("", text)
+    text = words.undone.sub(
+        lambda said: "" if words.arms.search(text[: said.start()]) else said[0], text
+    )
     for name, pause in words.pauses.items():
         factor = UNITS[name.partition("_")[2]][1]
         text = pause.sub(partial(_pause, factor=factor), text)
     text = text.removeprefix(ARROW.lstrip())
+    if text.endswith(ARROW):  # "he waves after two seconds"
+        *parts, rest = text.removesuffix(ARROW).split(ARROW)
+        text = ARROW.join([*parts[:-1], rest, *parts[-1:]])
     numbers = list(NUMBERED.finditer(text))
     if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
         lead = text[: numbers[0].start()].strip()
@@ -238,7 +243,7 @@ def _joined(text: str, read: Read) -> list[str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own; what
     does not, stays with what stands beside it, but for what is denied at the head ("don't run, …").
     """
-    denial = all_words().denial.search(text)
+    denial = all_words().denial.match(text) or all_words().refusal.search(text)
     who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
     if denial and not (who and read(who).certainty > SURE):
         rest = _trimmed(text[denial.end() :])
@@ -446,25 +451,31 @@ def _measured(text: str) -> Clause:
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
     for name, (field, factor, least) in UNITS.items():
-        match = words.units[name].search(clause.text)
-        if match is None or (number := _value(match["number"])) < least:
+        found = words.units[name].finditer(clause.text)
+        match = next((each for each in found if _value(each["number"]) >= least), None)
+        if match is None:
             continue
+        if name == "steps" and words.uncounted.search(match["manner"] or ""):
+            continue  # "raises two arms steps back"
+        number = _value(match["number"])
         number += 0.5 * bool(match.groupdict().get("half"))
         value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
         if not 0 < value <= MOST[field]:
             continue
         stays, before = "", clause.text[: match.start()]
         if name == "steps" and (not before.strip() or words.takes.search(before)):
-            stays = (match["manner"] or "") + words.steps[bare(match["noun"])]
+            article, _, noun = words.steps[bare(match["noun"])].rpartition(" ")
+            stays = f"{article} {match['manner'] or ''}{noun}".strip()
         rest = _without(clause.text, match, stays)
         if rest or name != "steps":
-            found: dict[str, Any] = {"text": rest, field: value}
-            clause = replace(clause, **found)
-    if clause.degrees is None and (match := words.angle.search(clause.text)):
-        angle = words.angles[bare(match[0])]
-        about = angle == ABOUT and not words.corner.search(text) and _counted(clause).count == 1
-        if side != "both" or about:
-            clause = replace(clause, degrees=angle)
+            said_so: dict[str, Any] = {"text": rest, field: value}
+            clause = replace(clause, **said_so)
+    if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
+        clause = replace(clause, degrees=words.angles[bare(match[0])])
+    round_it = words.corner.search(text) or words.round.search(text)
+    about = words.about.search(clause.text) and not round_it and _counted(clause).count == 1
+    if clause.degrees is None and about:
+        clause = replace(clause, degrees=ABOUT)
     if clause.degrees is not None:
         sign = -1.0 if side == "right" else 1.0
         return replace(clause, degrees=sign * clause.degrees)

@@ -486,7 +486,9 @@ class SentenceGenerator:
             return turned(clause.degrees, fps, clause.seconds)
         side = side_of(clause.text)
         if self._nearest(clause.text) == "turn" and side != "both":
-            angle = CORNER if side == "left" else -CORNER
+            angle = CORNER * clause.count * (1 if side == "left" else -1)
+            if clause.count > 1:
+                return turned(angle, fps, clause.seconds)
             return turned(angle, fps, seconds, max((seconds - TURN_SECONDS) / 2, TURN_REST))
         if bend := self._bend(clause.text):
             if clause.seconds is None:

@@ -125,7 +125,8 @@ class Words:
         half = rf"(?P<half>\s*{_any(all_of('half'))})?{_trail()}"
 
         def measure(name: str) -> str:
-            words = {*numbers, *fractions, *([] if name == "seconds" else articles)}
+            one = articles if name in ("metres", "minutes") else []  # not "a second wave"
+            words = {*numbers, *fractions, *one}
             words -= set(all_of("vague")) if name == "steps" else set()
             amount = rf"{_lead()}{ready}(?P<number>{_DIGITS}|{_any(sorted(words))})"
             if name == "steps":
@@ -133,19 +134,28 @@ class Words:
             return rf"{amount}[\s-]*{_any(all_of(name))}{half}"
 
         self.units = {name: re.compile(measure(name), re.I) for name in UNITS}
-        between = rf"(?:\s*(?:{_STOPS}|{_any(joints)}|{then})\s*|\s+)"
+        heads_only = rf"(?:^|(?<=[,;:.!?、。])\s*|(?<!{_SIGN}){_any(joints)}\s*)"
         after, later = _any(all_of("after_time")), _any(all_of("later_time"))
         self.pauses = {
             f"{when}_{name}": re.compile(f"{pattern}{_COMMAS}?", re.I)
             for name in ("seconds", "minutes")
             for when, pattern in (
-                ("after", rf"{between}*(?<!{_SIGN}){after}\s*{measure(name)}"),
-                ("later", rf"(?:^|{between}){measure(name)}\s*{later}(?!\s+(?:de|du|des)\b)"),
+                ("after", rf"(?<!{_SIGN}){after}\s*{measure(name)}"),
+                ("later", rf"{heads_only}{measure(name)}\s*{later}(?!\s+(?:de|du|des)\b)"),
             )
         }
         ends = rf"(?=\s*(?:$|{_STOPS}|{_any(joints)}|{then}))"
         undone = rf"{_any(all_of('undone'))}(?:\s*{_any(all_of('again'))})*"
-        self.undone = re.compile(rf"(?<=\S){between}+{undone}{ends}", re.I)
+        first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
+        joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
+        self.undone = re.compile(rf"{first}{joined}{undone}{ends}", re.I)
+        self.arms = re.compile(_any(all_of("limbs")), re.I)
+        self.uncounted = re.compile(_any(all_of("uncounted")), re.I)
+        self.about = re.compile(_any(all_of("about")), re.I)
+        refused = rf"{_any(all_of('refuses'))}.*?(?:{_STOPS}|{_any(all_of('but'))})"
+        self.refusal = re.compile(refused, re.I)
+        sideways = _any([*owned, *all_of("toward")])
+        self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)

@@ -205,8 +205,10 @@ export class Director {
   async turn({ degrees, text, count, seconds: named }, seconds, seed) {
     if (degrees !== null) return turned(degrees, named ?? undefined);
     const side = this.reader.sideOf(text);
-    if (this.nearest(text) === "turn" && side !== "both")
-      return turned(side === "left" ? CORNER : -CORNER, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST));
+    if (this.nearest(text) === "turn" && side !== "both") {
+      const angle = CORNER * count * (side === "left" ? 1 : -1);
+      return count > 1 ? turned(angle, named ?? undefined) : turned(angle, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST));
+    }
     const bend = await this.bend(text);
     if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
     if (bend) {

@@ -77,9 +77,9 @@ export class SentenceReader {
 
   /** A clause that names nothing but a side does what the one before it does, to that side. */
   asBefore(before, clause) {
-    if (clause.degrees !== null || !this.isAside(clause.text, true)) return clause;
+    if (clause.degrees !== null || !this.first.sideways.test(clause.text)) return clause;
     const [said, other] = [clause, before].map(({ text }) => this.first.left.exec(text) ?? this.first.right.exec(text));
-    if (!said || !other) return clause;
+    if (!said || !other || this.first.no_side.test(before.text)) return clause;
     const { text } = before;
     return { ...clause, text: text.slice(0, other.index) + said[0] + text.slice(other.index + other[0].length) };
   }
@@ -94,13 +94,19 @@ export class SentenceReader {
     let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
-    text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]).replace(this.each.undone, "");
+    text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
+    const armed = text;
+    text = text.replace(this.each.undone, (said, at) => (this.first.arms.test(armed.slice(0, at)) ? "" : said));
     for (const [name, factor] of PAUSES)
       text = text.replace(this.each[name], (...found) => {
         const { number, half } = found.at(-1), seconds = (this.value(number) + (half ? 0.5 : 0)) * factor;
         return seconds ? `${ARROW}${STANDS} for ${seconds} seconds${ARROW}` : found[0];
       });
     if (text.startsWith(ARROW.trimStart())) text = text.slice(ARROW.trimStart().length);
+    if (text.endsWith(ARROW)) { // "he waves after two seconds"
+      const parts = text.slice(0, -ARROW.length).split(ARROW), rest = parts.pop();
+      text = [...parts.slice(0, -1), rest, ...parts.slice(-1)].join(ARROW);
+    }
     const numbers = [...text.matchAll(NUMBERED)], [first] = numbers;
     if (numbers.length < 2 || !numbers.every((each, i) => Number(each[1]) === i + 1)) return text;
     const lead = text.slice(0, first.index).trim();
@@ -162,8 +168,9 @@ export class SentenceReader {
   }
 
   joined(text) {
-    const denial = this.first.denial.exec(text);
-    if (denial && this.read(this.trimmed(text.slice(0, denial.index))).certainty <= SURE) {
+    const denial = this.head.denial.exec(text) ?? this.first.refusal.exec(text);
+    const who = denial && this.trimmed(text.slice(0, denial.index)); // "she" of "she doesn't walk, she jumps"
+    if (denial && !(who && this.read(who).certainty > SURE)) {
       const rest = this.trimmed(text.slice(denial.index + denial[0].length));
       if (this.reading(rest).certainty > SURE) text = rest; // not in "don't move, please"
     }
@@ -299,25 +306,29 @@ export class SentenceReader {
     let clause = plainClause(text);
     const side = this.sideOf(text.replace(this.each.angle, " "));
     for (const [name, [field, factor, least]] of Object.entries(this.units)) {
-      const match = this.first[name].exec(clause.text);
-      const number = match ? this.value(match.groups.number) : NaN;
-      if (!(number >= least)) continue;
+      const match = [...clause.text.matchAll(this.each[name])].find(({ groups }) => this.value(groups.number) >= least);
+      if (!match) continue;
       const { half, manner, noun } = match.groups;
-      const value = (number + (half ? 0.5 : 0)) * factor + (clause[field] ?? 0); // a minute and ten seconds
+      if (name === "steps" && this.first.uncounted.test(manner ?? "")) continue; // "raises two arms steps back"
+      const value = (this.value(match.groups.number) + (half ? 0.5 : 0)) * factor + (clause[field] ?? 0); // a minute and ten seconds
       if (!(value > 0 && value <= this.most[field])) continue;
       const before = clause.text.slice(0, match.index);
-      const stays = name === "steps" && (!before.trim() || this.first.takes.test(before)) ? (manner ?? "") + this.steps[bare(noun)] : "";
+      const stays = name === "steps" && (!before.trim() || this.first.takes.test(before)) ? this.stepping(manner ?? "", this.steps[bare(noun)]) : "";
       const rest = this.without(clause.text, match, stays);
       if (rest || name !== "steps") clause = { ...clause, text: rest, [field]: value };
     }
-    const match = clause.degrees === null && this.first.angle.exec(clause.text);
-    if (match) {
-      const degrees = this.angles[bare(match[0])];
-      const about = degrees === ABOUT && !this.first.corner.test(text) && this.counted(clause).count === 1;
-      if (side !== "both" || about) clause = { ...clause, degrees };
-    }
+    const angle = clause.degrees === null && side !== "both" && this.first.angle.exec(clause.text);
+    if (angle) clause = { ...clause, degrees: this.angles[bare(angle[0])] };
+    const roundIt = this.first.corner.test(text) || this.first.round.test(text);
+    const about = this.first.about.test(clause.text) && !roundIt && this.counted(clause).count === 1;
+    if (clause.degrees === null && about) clause = { ...clause, degrees: ABOUT };
     if (clause.degrees !== null) return { ...clause, degrees: (side === "right" ? -1 : 1) * clause.degrees };
     return clause.metres === null && clause.seconds === null && clause.steps === null ? this.counted(clause) : clause;
+  }
+
+  stepping(manner, said) {
+    const at = said.lastIndexOf(" ");
+    return `${said.slice(0, Math.max(at, 0))} ${manner}${said.slice(at + 1)}`.trim();
   }
 
   counted(clause) {

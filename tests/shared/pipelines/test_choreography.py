@@ -227,7 +227,8 @@ def test_who_dances_carries_it(sentence: str) -> None:
 @pytest.mark.parametrize(
     "sentence",
     ["a robot dances", "an old man walks", "a person dances tango", "", "person",
-     "a person dances ballet", "ein Roboter tanzt"],
+     "a person dances ballet", "ein Roboter tanzt", "a man breaking into a run",
+     "salsa is what she walks to"],
 )  # fmt: skip
 def test_what_no_figure_shows_is_left_to_the_generator(sentence: str) -> None:
     assert wish_of(sentence, KINDS) is None

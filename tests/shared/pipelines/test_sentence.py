@@ -1,5 +1,7 @@
 """What sentences say of order and measure, in six languages; and what is no order or measure."""
 
+import time
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -159,7 +161,15 @@ def test_other_words_are_left_alone(sentence: str):
         ("二度お辞儀する", Clause("お辞儀する", count=2)),
         ("a person turns around", Clause("a person turns around", degrees=180)),
         ("dreht sich um", Clause("dreht sich um", degrees=180)),
+        ("turns around to the left", Clause("turns around to the left", degrees=180)),
+        ("se da la vuelta a la manzana", Clause("se da la vuelta a la manzana")),
         ("turns around the corner", Clause("turns around the corner")),
+        ("eine Person kehrt den Boden", Clause("eine Person kehrt den Boden")),
+        ("turns around in circles", Clause("turns around in circles")),
+        ("hops on one foot for 20 feet", Clause("hops on one foot", metres=6.096)),
+        ("walks across a yard", Clause("walks across a yard")),
+        ("dances the two step", Clause("dances the two step")),
+        ("fait trois petits pas à gauche", Clause("fait des petits pas à gauche", steps=3)),
         ("walk 50 cm", Clause("walk", metres=0.5)),
         ("向前走一米半", Clause("向前走", metres=1.5)),
         ("walk three metres", Clause("walk", metres=3)),
@@ -229,6 +239,39 @@ def test_ways_and_turns_of_their_own_measure_are_clauses_of_their_own():
     assert [clause.text for clause in clauses("walks slowly, sadly", walks)] == [
         "walks slowly, sadly"
     ]
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "walks" + "!" * 60, "walks" + " ," * 40, "walks" + " and" * 40,
+        "一个人走路" + "…" * 40 + "挥手",
+        "she waves :" + ")" * 60, "what" + "?!" * 30 + " jumps", "walks " + ">" * 60 + " waves",
+        "un " * 300 + "x", "to the left " * 60,
+    ],
+)  # fmt: skip
+def test_hostile_sentences_are_read_in_no_time(sentence: str):
+    started = time.perf_counter()
+    clauses(sentence)
+    assert time.perf_counter() - started < 2.0  # a doubling with each sign would take years
+
+
+@pytest.mark.parametrize(
+    ("sentence", "parts"),
+    [
+        ("she doesn't walk, she jumps", ["she jumps"]),
+        ("一个人特别慢地走，挥手", ["一个人特别慢地走", "挥手"]),
+        ("a man not only walks but also waves", ["a man not only walks but also waves"]),
+    ],
+)
+def test_who_is_said_not_to_do_it_does_not(sentence: str, parts: list[str]):
+    known = ("walk", "jump", "wave", "走", "挥手")
+
+    def reads(text: str) -> Reading:
+        found = next((word for word in known if word in text), None)
+        return Reading(found, 1.0 if found else -1.0)
+
+    assert [clause.text for clause in clauses(sentence, reads)] == parts
 
 
 def test_words_that_two_languages_share_cost_no_time():
@@ -400,9 +443,19 @@ def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
         ("hebt die Hand, senkt sie wieder, dann geht sie", ["hebt die Hand", "geht sie"]),
         ("lève les bras puis les baisse", ["lève les bras"]),
         ("levanta la mano y la baja", ["levanta la mano"]),
+        ("er winkt nach zwei Sekunden", ["stands still", "er winkt"]),
+        ("er tanzt, nach einer Sekunde winkt er", ["er tanzt", "stands still", "winkt er"]),
+        ("hops for five seconds on the left leg", ["hops on the left leg"]),
+        ("3秒後ろ向きに歩く", ["後ろ向きに歩く"]),
+        ("保持下蹲，10秒后退", ["保持下蹲, 后退"]),
+        ("picks up a box and puts it down", ["picks up a box and puts it down"]),
+        ("raises and lowers the arms", ["raises and lowers the arms"]),
+        ("sube la escalera y la baja", ["sube la escalera y la baja"]),
         # a side alone
         ("steps to the right and then to the left", ["steps to the right", "steps to the left"]),
         ("geht nach links, dann nach rechts", ["geht nach links", "geht nach rechts"]),
+        ("raises the right hand, then the left foot", ["raises the right hand", "the left foot"]),
+        ("runs right away, then to the left", ["runs right away", "to the left"]),
         ("gira a la izq. Salta.", ["gira a la izq. Salta"]),
         # idioms, which the text tower does not know, and openings
         ("takes  a Run-up, then jumps", ["runs", "jumps"]),

@@ -251,7 +251,8 @@ def _check_columns(path: Path, names: Sequence[str], header: Sequence[str]) -> N
     """Raises UserError: a column has nearly the name of one that is not there."""
     absent = [name for name, key in _KEYS.items() if key not in header]
     for name, key in zip(names, header, strict=True):
-        near = [] if key else get_close_matches(name, absent, n=1, cutoff=0.8)
+        alike = [each for each in absent if each[:1] == name[:1]]  # "reaction" is no "action"
+        near = [] if key else get_close_matches(name, alike, n=1, cutoff=0.85)
         if near:
             raise UserError(
                 f"captions {path}: column {name!r} is unknown; rename it to {near[0]!r}"
