@@ -121,3 +121,14 @@ def test_the_resume_command_survives_the_shell() -> None:
     assert words[4:] == ["--output", "a folder", "steps=3", "--resume"]
     own = resume_command("src.train.train_x", ["train", "x", "--output", "a folder"])
     assert own == "motion-tools train x --output 'a folder' --resume"
+
+
+def test_a_line_says_of_how_many_steps_it_is_and_how_long_the_rest_takes(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with RunLog(tmp_path, start=0, steps=40, main=True, tensorboard=False) as log:
+        log.write(20, {"loss": 1.0})
+        log.write(40, {"loss": 0.5})
+    first, last = capfd.readouterr().err.splitlines()
+    assert first.startswith("step 20 of 40  loss 1") and first.endswith("s left")
+    assert last == "step 40 of 40  loss 0.5"

@@ -437,3 +437,12 @@ def test_a_gesture_is_never_cut_off(tmp_path: Path):
         batch = windows.batch(step, 8)
         waves = [r for r in batch.records if r.tag == "wave"]
         assert all(batch.mask.shape[1] >= round(0.4 * r.num_frames) for r in waves)
+
+
+def test_paths_are_folders_of_motion(tmp_path: Path) -> None:
+    root = bvh_folder(tmp_path / "in")
+    report = prepare(str(root), str(tmp_path / "one"), workers=1)
+    prepare([MotionFolder.open(root)], tmp_path / "two", workers=1)
+    assert report["by_provenance"] == {"captured": 6}
+    one, two = (files_of(tmp_path / name) for name in ("one", "two"))
+    assert one == two

@@ -21,6 +21,7 @@ from src.shared.pipelines.edit import (
     GROUPS,
     bend_back,
     chosen_joints,
+    edit_clip,
     edited,
     fill,
     fill_free,
@@ -204,3 +205,11 @@ def test_moving_a_motion(clip: Motion) -> None:
     )
     error = kept_positions_error(moved, clip, slice(10, 40), slice(10, 40))
     assert error < 1e-4
+
+
+def test_groups_of_joints_are_joints(clip: Motion) -> None:
+    by_group = edit_clip(clip, 0.0, None, ["right-arm"]).constraint.known
+    by_joint = edit_clip(clip, 0.0, None, chosen_joints(["right-arm"])).constraint.known
+    assert torch.equal(by_group, by_joint)
+    with pytest.raises(UsageError, match="did you mean 'right-arm'"):
+        edit_clip(clip, 0.0, None, ["right-arn"])

@@ -1,5 +1,8 @@
 """A live body: frames in order, sentences seen, an end."""
 
+import threading
+import time
+
 import numpy as np
 import pytest
 
@@ -91,3 +94,23 @@ def test_addresses(text: str, wanted: tuple[str, int]) -> None:
 def test_wrong_addresses(text: str) -> None:
     with pytest.raises(UsageError, match="no address"):
         parse_address(text, 39539)
+
+
+def test_lines_of_a_pipe_wait_for_their_turn(generator: MotionGenerator) -> None:
+    live, seen = body(generator), list[str]()
+
+    def said() -> None:
+        live.wait(1.0)
+        live.say("somebody jumps")
+        live.wait(1.0)
+        live.say("somebody waves")
+
+    threading.Thread(target=said, daemon=True).start()
+
+    def sink(frame: Frame) -> None:
+        seen.append(frame.text)
+        time.sleep(0.01)  # as slowly as whoever looks at it
+
+    live.play([sink], seconds=8.0)
+    assert list(dict.fromkeys(seen))[1:] == ["somebody jumps", "somebody waves"]
+    assert seen.count("somebody jumps") >= 15
