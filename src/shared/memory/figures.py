@@ -54,6 +54,7 @@ TURN_STEPS, PLACE_STEPS = 4096.0, 5000.0  # of a quaternion's parts, and of a me
 SLOW = 0.55  # seconds; longer counts are read as two as well
 FLOOR_SECONDS, FLOOR_SHARE = 3.0, 20  # in which somebody stands for that percentage
 HOVERS = 0.5 * HOVER_SECONDS * FPS  # frames: a song may be slower than the take
+NEARLY, HOVERS_NEARLY = 0.012, 12  # metres lower, frames: where a recorded floor drifts
 MIN_COUNTS = 5  # of a take
 BESIDE = 9  # frames around a figure that are seen while it fades
 STILL = 0.12  # m/s, mean of all joints over half a second: nobody dances
@@ -220,9 +221,10 @@ class FigureMemory:
 
     @cached_property
     def _aloft(self) -> list[tuple[int, int]]:
-        """Where nothing of a body is near the floor for long."""
-        runs = aloft(self._joints)
-        return [run for run in runs if run[1] - run[0] > HOVERS]
+        """Where nothing of a body is near the floor for long, or nearly so for longer."""
+        nearly = aloft(self._joints + np.array([0.0, NEARLY, 0.0]))
+        runs = [run for run in nearly if run[1] - run[0] > HOVERS_NEARLY]
+        return runs + [run for run in aloft(self._joints) if run[1] - run[0] > HOVERS]
 
     @cached_property
     def _torn(self) -> np.ndarray:
