@@ -86,8 +86,8 @@ def produce(request: Request) -> dict[str, Any]:
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
-            own = "keeps its own time" if request.path_alone or request.prompt else "stands"
-            tell(f"note: no beat was found in {result['audio']}; the body {own}")
+            own = "motion keeps its own time" if request.path_alone else "body stands"
+            tell(f"note: no beat was found in {result['audio']}; the {own}")
         return result
     dancing = ("body", "body_model", "follow_path")
     for name in dancing:

@@ -416,9 +416,7 @@ class SongPerformer:
         left = frames - sum(fixed)
         if not dancing or left < dancing * fps:  # alike
             fixed, dancing, left = [0] * len(parts), len(parts), frames
-        share, lengths = left // dancing, list[int]()
-        for length in fixed:
-            lengths.append(length or share)
+        lengths = [length or left // dancing for length in fixed]
         lengths[-1] += frames - sum(lengths)
         return [Passage(part.text, n, tag) for part, n in zip(parts, lengths, strict=True)]
 
