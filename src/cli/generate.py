@@ -173,7 +173,7 @@ def controlled(request: Request) -> dict[str, Any]:
     clock.lap("sample")
     rows = files.write_motions([made.motion], 1, formats, request.out)
     rows[0] |= {"seed": request.seed, "directions": request.given(), "errors": made.errors}
-    rows[0] |= {"warning": next(filter(None, warnings), None)}
+    rows[0] |= {"warning": next(filter(None, [*warnings, made.warning]), None)}
     clock.lap("write")
     return told_of_text(request, generator) | results(rows, clock)
 

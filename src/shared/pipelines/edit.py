@@ -16,6 +16,8 @@ import numpy as np
 
 from ..config_loader import did_you_mean
 from ..errors import UsageError, UserError
+from ..metrics.measurements import heading_frame
+from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
@@ -27,6 +29,7 @@ from ..motion.features import (
     ROOT_ROW,
     YAW_RATE,
     Place,
+    decode_features,
     encode_features,
     integrate_root,
 )
@@ -39,6 +42,9 @@ from .stream import OVERLAP, Passage, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
+FULLEST = 0.95  # of the way to the pose that is furthest from the first one: there
+HARDLY = 0.08  # metres that a joint moves at most where a body holds still
+SWAY_SECONDS = 4.0  # forth and back
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
 GROUPS: dict[str, tuple[str, ...]] = LIMBS | {
     "arms": LIMBS["left-arm"] + LIMBS["right-arm"],
@@ -214,6 +220,36 @@ def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) ->
     return Constraint(features, known, shown=shown)
 
 
+def held(features: Tensor, frames: int, fps: float) -> Constraint:
+    """A motion [T,R,6] that goes as far from its first pose as it goes, and no way back.
+
+    From there on all is known: the stretch in which it hardly moves, forth and back at the pace at
+    which a body sways that holds still, its place left out.
+
+    Args:
+        frames: of the whole; T are enough to get there.
+    """
+    motion = decode_features(features, fps=fps)
+    heading = np.unwrap(heading_of(motion).astype(np.float64))
+    joints = motion.positions().astype(np.float64)
+    body = heading_frame(joints, heading)
+    body[:, 0, 1] = joints[:, 0, 1]  # how high the pelvis is
+    body[:, 1:, 1] += joints[:, :1, 1]
+
+    away = np.linalg.norm(body - body[0], axis=-1).mean(-1)
+    there = int(np.argmax(away >= FULLEST * away.max()))
+    moved = np.linalg.norm(body[there:] - body[there], axis=-1).max(-1) > HARDLY
+    stays = int(np.argmax(moved) if moved.any() else len(moved)) - 1
+    time = np.arange(frames)
+    turning = np.pi / max(stays, round(SWAY_SECONDS / 2 * fps))
+    way = there + stays * (1 - np.cos(turning * (time - there))) / 2
+    given = Constraint.free(frames)
+    given.values[:] = features[np.where(time < there, time, np.round(way)).clip(max=len(away) - 1)]
+    given.values[:, ROOT_ROW, GROUND] = 0.0
+    given.known[there:] = True
+    return given
+
+
 # ---------------------------------------------------------------- how well it is kept
 
 
@@ -246,10 +282,12 @@ class ControlledMotion:
     Attributes:
         motion: post-processed.
         errors: see the function that made it.
+        warning: a line if it does not show what was asked for, as far as kinematics tell.
     """
 
     motion: Motion
     errors: dict[str, Any] = field(default_factory=dict)
+    warning: str | None = None
 
 
 def fill(

@@ -9,8 +9,10 @@ Letters: N candidates, T frames.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Real
 from pathlib import Path
@@ -28,10 +30,10 @@ from ..model.onnx_card import AUDIO_KIND, chosen_runtime
 from ..motion.motion import Motion
 from .edit import ControlledMotion, Given, edited
 from .path import DrawnPath, TimedPath, along_path, time_path
-from .ranking import PerformanceJudge, TextJudge, load_tower, own_tower
+from .ranking import PerformanceJudge, ScoreTable, TextJudge, load_tower, own_tower, unranked
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
-from .text import PromptResult, PromptSampler, SentenceGenerator
-from .timeline import Timeline, in_a_loop
+from .text import SentenceGenerator
+from .timeline import Timeline
 
 if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from ..audio.song import Song
@@ -42,12 +44,76 @@ if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from .song import SongCondition, SongGenerator, SongMotions
 
 SHORTEST, LONGEST = 0.2, 3600.0  # seconds of a clause
+log = logging.getLogger(__name__)
 Stage = Callable[[str], AbstractContextManager[Progress]]
 
 
 def silently(stage: str) -> AbstractContextManager[Progress]:
     """For a `Stage`: nobody is told how far it is."""
     return nullcontext(lambda done, total: None)
+
+
+@dataclass(frozen=True, eq=False)
+class PromptResult:
+    """The best motion for one prompt; all N, as sampled, if asked for; their scores."""
+
+    motion: Motion
+    all_candidates: list[Motion] | None
+    table: ScoreTable
+
+    def ranked(self) -> list[Motion]:
+        """All candidates, best first; only the best where the others were not kept."""
+        if self.all_candidates is None:
+            return [self.motion]
+        return [self.all_candidates[place] for place in self.table.order]
+
+
+class PromptSampler:
+    """Best of N for prompts, the text side's `MotionSampler`.
+
+    Args:
+        generator: trained; a `SentenceGenerator` is used as it is.
+        judge: of the candidates; one with the generator's motion tower sees the prompt, None
+            makes one without.
+    """
+
+    def __init__(
+        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
+    ) -> None:
+        if isinstance(generator, TextToMotion):
+            generator = SentenceGenerator(generator)
+        self.generator = generator
+        self.judge = judge or TextJudge()
+
+    def sample(
+        self,
+        prompts: Sequence[str],
+        num_samples: int = 8,
+        *,
+        return_all: bool = False,
+        **options: Any,
+    ) -> list[PromptResult]:
+        """Sample N candidates a prompt and keep the one that the judge puts first.
+
+        Args:
+            prompts: see `SentenceGenerator.generate`.
+            num_samples: N; candidate i depends on (seed, prompt, i) alone.
+            return_all: keep the others too.
+            options: what else `SentenceGenerator.generate` takes.
+
+        Raises:
+            UserError: as `SentenceGenerator.generate`.
+        """
+        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
+        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
+        results = []
+        for number in range(len(prompts)):
+            made = motions[number * num_samples : (number + 1) * num_samples]
+            table = unranked()
+            if embeddings is not None:
+                table = self.judge.judge(made, embeddings[number])
+            results.append(PromptResult(made[table.best], made if return_all else None, table))
+        return results
 
 
 class MotionGenerator:
@@ -378,7 +444,10 @@ class MotionGenerator:
         made = edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock)
         free = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
         if prompt is not None and len(free):
-            self.sentences.warn_unless_shown(prompt, made.motion.frames(free[0], free[-1] + 1))
+            anew = made.motion.frames(free[0], free[-1] + 1)
+            if line := self.sentences.unless_shown(prompt, anew):
+                log.warning("%s", line)
+                return replace(made, warning=line)
         return made
 
     def timeline(
@@ -407,7 +476,7 @@ class MotionGenerator:
                 self.text, timeline, path, sampling, seconds=seconds, foot_lock=foot_lock
             )
         if loop:
-            return in_a_loop(self.text, timeline, sampling, foot_lock=foot_lock)
+            return self.sentences.loop(timeline, sampling, foot_lock=foot_lock)
         return ControlledMotion(self.sentences.timeline(timeline, sampling, foot_lock=foot_lock))
 
     def stream(self, prompts: str | Iterable[str | Passage], **options: Any) -> MotionStream:

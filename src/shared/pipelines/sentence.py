@@ -22,7 +22,10 @@ from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, UNITS, all_words,
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
-ARROW, STANDS = " → ", "stands still"
+ARROW, STANDS, SQUATS = " → ", "stands still", "squats down"
+HELD, HALT = "\u23f8", 2.5  # behind what is held; seconds
+GOING = frozenset({"walk", "run", "crouch-walk"})
+UNHELD = GOING | {"jump"}  # what nobody stays in
 MOST_PIECES = 8  # between commas, that may be one part
 
 
@@ -60,6 +63,7 @@ class Clause:
         steps: to take; None where nothing is said.
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
         side: left, right or both.
+        held: whether it stays as it is when it is done, to the end.
     """
 
     text: str
@@ -70,6 +74,7 @@ class Clause:
     steps: float | None = None
     meanwhile: str = ""
     side: str = "both"
+    held: bool = False
 
     @property
     def far(self) -> bool:
@@ -98,10 +103,22 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
             first, *others = pieces
             pair = _at_once(first, others[0], read) if others else None
             clause = pair or _parted(first, read) or _measured(first)
-            found.append(_as_before(last, clause) if last else clause)
+            found += _held(_as_before(last, clause) if last else clause, first, read)
             last = None
             pieces = others[1:] if pair else others
     return [clause for clause in found if clause.text] or [Clause(sentence)]
+
+
+def _held(clause: Clause, said: str, read: Read) -> list[Clause]:
+    """A clause; where it is held and nobody can stay in it, what comes to a stand behind it."""
+    action = read(clause.text).action if clause.held else None
+    if action not in UNHELD:
+        return [clause]
+    if action == "crouch-walk":  # "crouches and stays down"
+        return [replace(clause, text=SQUATS)]
+    waits = _measured(said.partition(HELD)[2]).seconds
+    own = None if waits else clause.seconds
+    return [replace(clause, held=False, seconds=own), Clause(STANDS, seconds=waits or HALT)]
 
 
 def _as_before(before: Clause, clause: Clause) -> Clause:
@@ -135,6 +152,8 @@ def tidied(sentence: str) -> str:
     text = words.greeting.sub("", text)
     text = words.closing.sub("", text) or text
     text = words.short.sub(lambda cut: cut[0][:-1], text)
+    text = words.held.sub(HELD, text)
+    text = words.halts.sub(_halt, text)
     text = words.idiom.sub(lambda said: words.plainly[bare(_plain(said[0]))], text)
     text = words.undone.sub(
         lambda said: "" if words.arms.search(text[: said.start()]) else said[0], text
@@ -158,6 +177,14 @@ def tidied(sentence: str) -> str:
 def _pause(said: re.Match[str], factor: float) -> str:
     seconds = (_value(said["number"]) + 0.5 * bool(said["half"])) * factor
     return f"{ARROW}{STANDS} for {seconds:g} seconds{ARROW}" if seconds else said[0]
+
+
+def _halt(said: re.Match[str]) -> str:
+    more, first = said.string[said.end() :].strip(EDGES), not said.start()
+    if any(all_words().units[name].match(more) for name in ("seconds", "minutes")):
+        return STANDS if first else f"{ARROW}{STANDS}"
+    long = "" if first and not more else f" for {HALT:g} seconds"
+    return f"{'' if first else ARROW}{STANDS}{long}{ARROW if more else ''}"
 
 
 def _ordered(text: str, read: Read) -> list[str]:
@@ -405,7 +432,9 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     sides, alone = _sides(*halves), first.arms and second.arms
     halves = [_naming(half, side) for half, side in zip(halves, sides, strict=True)]
     return _Pair(
-        replace(_measured(halves[body]), meanwhile=halves[other], side=sides[other]),
+        replace(
+            _measured(halves[body]), meanwhile=halves[other].replace(HELD, ""), side=sides[other]
+        ),
         min(first.certainty, second.certainty),
         alone,
         alone and set(sides) == _SIDES,
@@ -447,7 +476,8 @@ def goes_round(text: str) -> bool:
 
 def _measured(text: str) -> Clause:
     """A clause with its measures taken out."""
-    words, clause = all_words(), Clause(text)
+    words, clause = all_words(), Clause(text.replace(HELD, ""), held=HELD in text)
+    text = clause.text
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
     for name, (field, factor, least) in UNITS.items():

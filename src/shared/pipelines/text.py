@@ -5,17 +5,16 @@ training clips is one sample of the network; all else is a stream of passages, o
 with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
 many degrees, in full circles where it asks for a spin or a way round, by a right angle where a walk
 is to turn. Where kinematics tell whether the action is there, and how often, what misses it is
-sampled again (`metrics.measurements`). Of several candidates the judge's first choice comes first.
+sampled again (`metrics.measurements`).
 
-Letters: N candidates, T frames, R rows (bones, root track).
+Letters: T frames, R rows (bones, root track).
 """
 
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import accumulate, pairwise
-from typing import Any
 
 import numpy as np
 
@@ -47,7 +46,7 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import rest_to_rest
 from ..tensors import Tensor, torch
-from .edit import all_but, chosen_joints, fill_free
+from .edit import ControlledMotion, all_but, chosen_joints, fill_free, held
 from .path import (
     TURN_REST,
     DrawnPath,
@@ -57,18 +56,17 @@ from .path import (
     time_path,
     turned,
 )
-from .ranking import ScoreTable, TextJudge, unranked
-from .sentence import Clause, Reading, clauses, goes_round, side_of, tidied
+from .sentence import GOING, Clause, Reading, clauses, goes_round, side_of, tidied
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
-from .timeline import SHORTEST, Part, Timeline, add_parts
+from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
-GOING = frozenset({"walk", "run", "crouch-walk"})
 STEPPING = GOING | {"side-step"}
 WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS = 2.2  # of a quarter on the spot, led
 TURNING = math.radians(20.0)  # a second: less is no turn
+HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST = 1.0  # seconds in which an action can be seen
@@ -201,22 +199,20 @@ class SentenceGenerator:
         if self._does(first.text, motion):
             return None
         return (
-            f"prompt {prompt!r}: none of {TRIES} samples shows {action!r}, by"
-            " how joints move; look at the motion, and try another seed or other words"
+            f"prompt {prompt!r}, read as {action!r}: none of {TRIES} samples shows that, by how"
+            " joints move; look at the motion, and try another seed or other words"
         )
 
-    def warn_unless_shown(self, prompt: str, motion: Motion) -> None:
-        """Say it if what was made of a clip does not show the action of its prompt."""
-        (first, *others) = self.clauses(prompt)
-        scope = self.generator.scope
-        if others or scope is None or self._nearest(first.text) not in scope.checked:
-            return
-        if not self._does(first.text, motion):
-            log.warning(
-                "prompt %r: what was made anew does not show %r, by how joints move; look at it,"
-                " and try a longer span, another seed, or a clip that stands there",
-                prompt, self._nearest(first.text),
-            )  # fmt: skip
+    def unless_shown(self, prompt: str, motion: Motion) -> str | None:
+        """A line if what was made of a clip does not show the action of its prompt."""
+        first, *others = self.clauses(prompt)
+        action, scope = self._nearest(first.text), self.generator.scope
+        if others or scope is None or action not in scope.checked or self._does(first.text, motion):
+            return None
+        return (
+            f"prompt {prompt!r}: what was made anew does not show {action!r}, by how joints move;"
+            " look at it, and try a longer span, another seed, or a clip that stands there"
+        )
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts = self.clauses(prompt)
@@ -242,13 +238,14 @@ class SentenceGenerator:
             return FORWARD, LATERAL, YAW_RATE
         return (YAW_RATE,) if self._by_arms(text) else ()
 
-    def _rested(self, motion: Motion, *texts: str) -> Motion:
-        """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture."""
+    def _rested(self, motion: Motion, *texts: str, held: bool = False) -> Motion:
+        """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture; its
+        end is left as it is where that is `held`."""
         scope = self.generator.scope
         if scope is None or not scope.gestures:
             return motion
         asked = any(self._nearest(text) in scope.gestures for text in texts)
-        return rest_to_rest(motion) if asked else motion
+        return rest_to_rest(motion, held=held) if asked else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
@@ -389,6 +386,21 @@ class SentenceGenerator:
             parts += own
         return self._motion(parts, stretches, timeline.text, sampling, foot_lock, timeline.parts)
 
+    def loop(
+        self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
+    ) -> ControlledMotion:
+        """See `in_a_loop`; where it is one text whose action is not seen, it is sampled again."""
+        found: list[ControlledMotion] = []
+        for seed in retry_seeds(sampling.seed):
+            own = replace(sampling, seed=seed)
+            found.append(in_a_loop(self.generator, timeline, own, foot_lock=foot_lock))
+            several = len(timeline.passages) > 1
+            line = None if several else self.missed(timeline.text, found[-1].motion)
+            if line is None:
+                return found[-1]
+        log.warning("%s", line)
+        return replace(found[0], warning=line)
+
     @idle_threads()
     def _motion(
         self,
@@ -407,6 +419,8 @@ class SentenceGenerator:
                 stop = start + passage.frames
                 given.values[start:stop] = constraint.values
                 given.known[start:stop] = constraint.known
+        if parts[0].held:  # nothing comes before
+            given.known[: starts[1]] = True
         led = any(constraint is not None for _, constraint in stretches)
         repeated = any(part.count > 1 for part in parts)
         fps = self.card.fps
@@ -430,7 +444,7 @@ class SentenceGenerator:
                 features[start:stop] = without_drift(features[start:stop], columns)
         features = add_parts(self.generator, features, limbs, sampling)
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
-        motion = self._rested(motion, parts[0].text, parts[-1].text)
+        motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
             if (
                 part.count > 1
@@ -474,6 +488,8 @@ class SentenceGenerator:
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)
             passage = replace(passage, frames=frames, window=once + REPEATED_OVERLAP)
+        elif clause.held:
+            given = self._held(passage, clause, sampling)
         if given is not None:
             return replace(passage, frames=len(given)), given
         return replace(passage, miss=self._miss(clause, passage.frames)), None
@@ -529,69 +545,13 @@ class SentenceGenerator:
             raise UserError(f"{passage.text!r}: {error}") from None
         return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()
 
+    def _held(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
+        """What is done, and stays as it is then."""
+        frames = min(passage.frames, round(HELD_SECONDS * self.card.fps))
+        alone = replace(passage, frames=frames, miss=self._miss(clause, frames))
+        done = torch.cat(list(stream_features(self.generator, [alone], sampling)))
+        return held(done, passage.frames, self.card.fps)
+
     def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
         free = torch.cat(list(stream_features(self.generator, [passage], sampling)))
         return natural_sway(free, self.card.fps)
-
-
-@dataclass(frozen=True, eq=False)
-class PromptResult:
-    """The best motion for one prompt; all N, as sampled, if asked for; their scores."""
-
-    motion: Motion
-    all_candidates: list[Motion] | None
-    table: ScoreTable
-
-    def ranked(self) -> list[Motion]:
-        """All candidates, best first; only the best where the others were not kept."""
-        if self.all_candidates is None:
-            return [self.motion]
-        return [self.all_candidates[place] for place in self.table.order]
-
-
-class PromptSampler:
-    """Best of N for prompts, the text side's `MotionSampler`.
-
-    Args:
-        generator: trained; a `SentenceGenerator` is used as it is.
-        judge: of the candidates; one with the generator's motion tower sees the prompt, None
-            makes one without.
-    """
-
-    def __init__(
-        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
-    ) -> None:
-        if isinstance(generator, TextToMotion):
-            generator = SentenceGenerator(generator)
-        self.generator = generator
-        self.judge = judge or TextJudge()
-
-    def sample(
-        self,
-        prompts: Sequence[str],
-        num_samples: int = 8,
-        *,
-        return_all: bool = False,
-        **options: Any,
-    ) -> list[PromptResult]:
-        """Sample N candidates a prompt and keep the one that the judge puts first.
-
-        Args:
-            prompts: see `SentenceGenerator.generate`.
-            num_samples: N; candidate i depends on (seed, prompt, i) alone.
-            return_all: keep the others too.
-            options: what else `SentenceGenerator.generate` takes.
-
-        Raises:
-            UserError: as `SentenceGenerator.generate`.
-        """
-        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
-        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
-        results = []
-        for number in range(len(prompts)):
-            made = motions[number * num_samples : (number + 1) * num_samples]
-            table = unranked()
-            if embeddings is not None:
-                table = self.judge.judge(made, embeddings[number])
-            results.append(PromptResult(made[table.best], made if return_all else None, table))
-        return results

@@ -7,6 +7,7 @@ what the entries without parts say.
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -21,7 +22,7 @@ from ..io.files import read_text
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import Place
+from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place, integrate_root
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import moved_to, place_of
 from ..tensors import Tensor, torch
@@ -33,6 +34,10 @@ SHORTEST = 0.2  # seconds of an entry
 LONGEST = 7200.0  # seconds of a timeline
 SECONDS = 4.0  # of a text that comes without a length
 SHORTEST_LOOP = 1.0  # seconds
+MEANT, CREEP = (
+    math.radians(45.0),
+    0.4,
+)  # of one round: less is by chance
 
 
 @dataclass(frozen=True)
@@ -251,6 +256,25 @@ def make_loop(generator: TextToMotion, passages: Sequence[Passage], sampling: Sa
     return torch.cat((made, window[shared : shared + closing]))
 
 
+def closed(features: Tensor, fps: float) -> Tensor:
+    """A round [T,R,6] that turns by full circles, or as it did where it is far from one; and ends
+    where it began, if it ended near that."""
+    features = features.clone()
+    root = features[:, ROOT_ROW]
+    turned = float(root[:, YAW_RATE].sum()) / fps
+    miss = math.remainder(turned, 2 * math.pi)
+    if abs(miss) < MEANT:
+        root[:, YAW_RATE] -= miss * fps / len(root)
+        path, heading = integrate_root(torch.cat((root, root[:1])), fps)
+        away = path[-1] - path[0]
+        if float(away.norm()) < CREEP:
+            x, z = -away[0] * fps / len(root), -away[2] * fps / len(root)
+            sine, cosine = torch.sin(heading[:-1]), torch.cos(heading[:-1])
+            root[:, FORWARD] += x * sine + z * cosine
+            root[:, LATERAL] += x * cosine - z * sine
+    return features
+
+
 def _stream(
     generator: TextToMotion,
     passages: Sequence[Passage],
@@ -281,7 +305,7 @@ def in_a_loop(
     Returns:
         errors: see `join_error`; travel, turn: metres and degrees of one round.
     """
-    features = make_loop(generator, timeline.passages, sampling)
+    features = closed(make_loop(generator, timeline.passages, sampling), generator.card.fps)
     features = add_parts(generator, features, timeline.parts, sampling)
     frames = len(features)
     rounds = generator.post_processor(

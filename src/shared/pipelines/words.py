@@ -149,6 +149,20 @@ class Words:
         first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
         joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
         self.undone = re.compile(rf"{first}{joined}{undone}{ends}", re.I)
+        behind_it = rf"(?:\s*{_STOPS}\s*|\s+|(?<={CJK_SIGN}))"
+        further = rf"(?:\s*{_STOPS}\s*{joined}|{behind_it}{_any(joints)}\s*(?:{then}\s*)?"
+        further += (
+            rf"|{behind_it}{then}\s*{_COMMAS}?\s*|(?<={CJK_SIGN}))(?:{_any(all_of('who'))}\s*)?"
+        )
+        halts = rf"{_any(all_of('halts'))}(?:\s*{_any(all_of('abruptly'))})*"
+        goes_for = rf"(?=\s*{_lead()}(?:{_DIGITS}|{_any(numbers)}))"
+        ends = rf"(?:{ends}|{goes_for})"
+        alone = rf"^(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}\s+{_LETTER}+)\s+)?{halts}\W*$"
+        self.halts = re.compile(rf"{alone}|{further}{halts}{ends}", re.I)
+        holds, kept = _any(all_of("holds")), _any(all_of("kept"))
+        there = rf"(?:\s*{_any(all_of('there'))})"
+        goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
+        self.held = re.compile(rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}", re.I)
         self.arms = re.compile(_any(all_of("limbs")), re.I)
         self.uncounted = re.compile(_any(all_of("uncounted")), re.I)
         self.about = re.compile(_any(all_of("about")), re.I)

@@ -68,8 +68,9 @@ const REST_FADE = 0.5;
 const HANGING = { collar: [0, 0, 0], shoulder: [0, 0, -1.37], elbow: [0, -0.38, 0], wrist: [0, 0, 0] };
 
 /** Arms that hang in the first and last frame, where they did not. */
-export function restToRest(motion, cuts = null) {
-  const last = motion.frames - 1, ends = cuts?.map((c) => [[c - 1, -1], [c, 1]]) ?? [[[0, 1]], [[last, -1]]];
+export function restToRest(motion, cuts = null, held = false) {
+  const last = motion.frames - 1, whole = [[[0, 1]], [[last, -1]]].slice(0, held ? 1 : 2);
+  const ends = cuts?.map((c) => [[c - 1, -1], [c, 1]]) ?? whole;
   const frames = Math.round(REST_FADE * motion.fps);
   if (motion.frames < 4 * frames) return motion;
   const quaternions = motion.quaternions.slice();

@@ -6,13 +6,13 @@ import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
-import { allBut, chosenJoints, fill, fillFree, keepEnds, NO_TEXT, redo } from "./edit.js";
+import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { isPlain, SentenceReader } from "./sentence.js";
+import { GOING, isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const GOING = ["walk", "run", "crouch-walk"], STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], HELD_SECONDS = 4, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -93,11 +93,11 @@ export class Director {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
       const features = await this.sampler.sample(said, frames, trial, null, guidance);
       removeDrift(features, this.steady(said));
-      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), said);
+      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), [said]);
       options.told?.(frames);
       const does = this.does(said, motion);
       if (best === null || does) best = motion;
-      missed = does || !this.scope.meta.checked.includes(action) ? null : `“${prompt}”: none of ${TRIES} samples shows “${action}”, by how joints move; try another seed or other words.`;
+      missed = does || !this.scope.meta.checked.includes(action) ? null : `“${prompt}”, read as “${action}”: none of ${TRIES} samples shows that, by how joints move; try another seed or other words.`;
       if (does) break;
     }
     return { ...best, missed };
@@ -122,6 +122,7 @@ export class Director {
       }
       at += stretch.passage.frames;
     }
+    if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
     let features = await streamFeatures(this.sampler, passages, seed, {
       ...options,
       constraint: led ? given : null,
@@ -138,7 +139,7 @@ export class Director {
       if (part.degrees === null && part.metres === null)
         removeDrift(features, this.steady(part.text, parts.length === 1), starts[i], starts[i] + passages[i].frames);
     const motion = postProcess(features, this.settings.post, { text });
-    let rested = this.rested(motion, parts[0].text, parts[parts.length - 1].text);
+    let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
     for (const [i, { count, text }] of parts.entries())
       if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
         const { frames } = passages[i], joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((frames * (k + 1)) / count));
@@ -172,6 +173,7 @@ export class Director {
       return { passage: { text, frames, afresh, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
     }
     const frames = Math.max(1, round(seconds * FPS));
+    if (clause.held) return led(await this.held(clause, frames, seed));
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
   }
 
@@ -224,6 +226,13 @@ export class Director {
     return turned(360 * (left ? circles : -circles), seconds);
   }
 
+  /** What is done, and stays as it is then. */
+  async held(clause, frames, seed) {
+    const { text } = clause, first = Math.min(frames, round(HELD_SECONDS * FPS));
+    const alone = { text, frames: first, afresh: this.beginsStanding(text), miss: this.miss(clause, first) };
+    return held(await streamFeatures(this.sampler, [alone], seed), frames);
+  }
+
   async sway(text, frames, seed) {
     return naturalSway(await streamFeatures(this.sampler, [{ text, frames }], seed));
   }
@@ -242,8 +251,8 @@ export class Director {
     return this.byArms(text) ? [YAW_RATE] : [];
   }
 
-  rested(motion, ...texts) {
-    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion) : motion;
+  rested(motion, texts, held = false) {
+    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion, null, held) : motion;
   }
 
   wanted(text) {

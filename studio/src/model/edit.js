@@ -1,11 +1,12 @@
 // What of given clips is kept, and the rest made anew (src/shared/pipelines/edit.py).
 
 import { turnAboutY } from "../body/rotations.js";
+import { round } from "../body/curves.js";
 import {
-  cut, encodeFeatures, FORWARD, framesOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, ORIGIN,
+  cut, decodeFeatures, encodeFeatures, FORWARD, framesOf, headingsOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, ORIGIN,
   placeOf, ROOT, WIDTH, YAW_RATE,
 } from "../body/features.js";
-import { FPS, GROUPS, INDEX } from "../body/skeleton.js";
+import { FPS, GROUPS, INDEX, JOINTS, pose } from "../body/skeleton.js";
 import { freeConstraint, OVERLAP, streamFeatures, windowOf } from "./stream.js";
 
 export const NO_TEXT = "a person moves";
@@ -50,6 +51,32 @@ export function keepEnds(start, end, kept, frames, rejoin = false) {
     place: start ? placeOf(start, 0) : ORIGIN,
     rejoin: end && rejoin ? { stop: frames - kept, place: placeOf(end, end.frames - kept) } : null,
   };
+}
+
+const FULLEST = 0.95, HARDLY = 0.08, SWAY_SECONDS = 4;
+
+/** A motion that goes as far from its first pose as it goes, and no way back: from there on all is known. */
+export function held(features, frames) {
+  const motion = decodeFeatures(features), heading = headingsOf(motion);
+  const bodies = Array.from({ length: motion.frames }, (_, t) => {
+    const { positions } = pose(motion, t), [s, c] = [Math.sin(heading[t]), Math.cos(heading[t])];
+    const [px, , pz] = positions[0];
+    return positions.map(([x, y, z]) => [(x - px) * c - (z - pz) * s, y, (x - px) * s + (z - pz) * c]);
+  });
+  const apart = (one, other) => one.map((point, j) => Math.hypot(...point.map((value, i) => value - other[j][i])));
+  const away = bodies.map((body) => apart(body, bodies[0]).reduce((sum, each) => sum + each, 0) / JOINTS);
+  const there = away.findIndex((far) => far >= FULLEST * Math.max(...away));
+  const moved = bodies.slice(there).findIndex((body) => Math.max(...apart(body, bodies[there])) > HARDLY);
+  const stays = (moved < 0 ? bodies.length - there : moved) - 1;
+  const turning = Math.PI / Math.max(stays, round((SWAY_SECONDS / 2) * FPS));
+  const given = freeConstraint(frames);
+  for (let t = 0; t < frames; t++) {
+    const from = t < there ? t : round(there + (stays * (1 - Math.cos(turning * (t - there)))) / 2);
+    given.values.set(cut(features, Math.min(from, bodies.length - 1), Math.min(from, bodies.length - 1) + 1), t * WIDTH);
+    for (const column of [FORWARD, LATERAL, YAW_RATE]) given.values[t * WIDTH + ROOT + column] = 0;
+  }
+  given.known.fill(1, there * WIDTH);
+  return given;
 }
 
 /** Raw features with everything that is not known made anew, and what was known in the end. */

@@ -1,18 +1,20 @@
 // What a sentence says of order and measure (src/shared/pipelines/sentence.py, whose patterns come
-// with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side }.
+// with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const ARROW = " → ", STANDS = "stands still", ABOUT = 180;
+const ARROW = " → ", STANDS = "stands still", SQUATS = "squats down", HELD = "\u23f8", HALT = 2.5, ABOUT = 180;
+export const GOING = ["walk", "run", "crouch-walk"];
+const UNHELD = [...GOING, "jump"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
-const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both" });
+const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false });
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
-  && !clause.meanwhile && clause.side === "both";
+  && !clause.meanwhile && clause.side === "both" && !clause.held;
 
 function strip(text, characters = EDGES) {
   let start = 0, stop = text.length;
@@ -66,13 +68,22 @@ export class SentenceReader {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0]) : null;
         const clause = pair ?? this.parted(first) ?? this.measured(first);
-        found.push(last ? this.asBefore(last, clause) : clause);
+        found.push(...this.held(last ? this.asBefore(last, clause) : clause, first));
         last = null;
         pieces = pair ? others.slice(1) : others;
       }
     }
     const real = found.filter((clause) => clause.text);
     return real.length ? real : [plainClause(sentence)];
+  }
+
+  /** A clause; where it is held and nobody can stay in it, what comes to a stand behind it. */
+  held(clause, said) {
+    const action = clause.held ? this.read(clause.text).action : null;
+    if (!UNHELD.includes(action)) return [clause];
+    if (action === "crouch-walk") return [{ ...clause, text: SQUATS }];
+    const waits = said.includes(HELD) ? this.measured(said.slice(said.indexOf(HELD) + 1)).seconds : null;
+    return [{ ...clause, held: false, seconds: waits ? null : clause.seconds }, { ...plainClause(STANDS), seconds: waits ?? HALT }];
   }
 
   /** A clause that names nothing but a side does what the one before it does, to that side. */
@@ -94,6 +105,9 @@ export class SentenceReader {
     let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
+    text = text.replace(this.each.held, HELD);
+    const going = text;
+    text = text.replace(this.each.halts, (said, ...found) => this.halt(said, found.find(Number.isInteger), going));
     text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
     const armed = text;
     text = text.replace(this.each.undone, (said, at) => (this.first.arms.test(armed.slice(0, at)) ? "" : said));
@@ -112,6 +126,12 @@ export class SentenceReader {
     const lead = text.slice(0, first.index).trim();
     if (/[:：]$/u.test(lead) || lead.split(/\s+/u).filter(Boolean).length < 3) text = text.slice(first.index + first[0].length);
     return text.replace(NUMBERED, ARROW);
+  }
+
+  halt(said, at, text) {
+    const more = strip(text.slice(at + said.length)), arrow = at ? ARROW : "";
+    if (this.head.seconds.test(more) || this.head.minutes.test(more)) return `${arrow}${STANDS}`;
+    return `${arrow}${STANDS}${at || more ? ` for ${HALT} seconds` : ""}${more ? ARROW : ""}`;
   }
 
   ordered(text) {
@@ -280,7 +300,7 @@ export class SentenceReader {
     const sides = this.sides(halves), armsAlone = first.arms && second.arms;
     const named = halves.map((half, i) => this.naming(half, sides[i]));
     return {
-      clause: { ...this.measured(named[body]), meanwhile: named[other], side: sides[other] },
+      clause: { ...this.measured(named[body]), meanwhile: named[other].replace(HELD, ""), side: sides[other] },
       certainty: Math.min(first.certainty, second.certainty),
       armsAlone,
       oneArmEach: armsAlone && opposite(...sides),
@@ -303,7 +323,8 @@ export class SentenceReader {
   }
 
   measured(text) {
-    let clause = plainClause(text);
+    let clause = { ...plainClause(text.replaceAll(HELD, "")), held: text.includes(HELD) };
+    text = clause.text;
     const side = this.sideOf(text.replace(this.each.angle, " "));
     for (const [name, [field, factor, least]] of Object.entries(this.units)) {
       const match = [...clause.text.matchAll(this.each[name])].find(({ groups }) => this.value(groups.number) >= least);

@@ -20,10 +20,11 @@ from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.pipelines.motion_generator import PromptSampler
 from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import TextJudge
 from src.shared.pipelines.stream import Passage
-from src.shared.pipelines.text import INSISTING, PromptSampler, SentenceGenerator
+from src.shared.pipelines.text import INSISTING, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline
 from tests.shared.model.conftest import tiny_generator
 
@@ -135,6 +136,27 @@ def test_a_gesture_faces_one_way_and_its_repetitions_are_told_apart(starter: Tex
         heights = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
         raised = heights.max(1) > 1.2
         assert np.count_nonzero(np.diff(raised.astype(int)) == 1) == times, prompt
+
+
+def test_what_is_held_stays(starter: TextToMotion):
+    made = SentenceGenerator(starter)
+    texts = ["raises the left hand and keeps it up", "a person crouches and stays down"]
+    hand, squat, *_ = made.generate(texts, seconds=4)
+    height = hand.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
+    assert height[0, 0] < 1.0 and height[60:, 0].min() > 1.4 and height[:, 1].max() < 1.0
+    assert squat.root_position[0, 1] > 0.9 and squat.root_position[60:, 1].max() < 0.75
+    speed = np.linalg.norm(np.diff(hand.positions(), axis=0), axis=-1).max() * 30
+    assert speed < 5.0  # m/s, the hand's way up
+    (walk,) = made.generate(["walks forward and stops"], seconds=3)
+    steps = np.linalg.norm(np.diff(walk.root_position[:, [0, 2]], axis=0), axis=-1) * 30
+    assert steps[:60].mean() > 0.9 and steps[-20:].mean() < 0.2
+
+
+def test_a_loop_of_a_stand_neither_creeps_nor_turns(starter: TextToMotion):
+    timeline = Timeline((Passage("a person stands", 90),))
+    made = SentenceGenerator(starter).loop(timeline, Sampling(seed=1))
+    assert made.errors["travel"] < 1e-3 and abs(made.errors["turn"]) < 0.01
+    assert made.warning is None
 
 
 def test_who_sits_does_not_glide(starter: TextToMotion):

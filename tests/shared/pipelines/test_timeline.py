@@ -1,5 +1,6 @@
 """Timelines: what a file may say, passages and parts in one motion, and loops."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 from src.shared.errors import UserError
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.features import ROOT_ROW
+from src.shared.motion.features import FORWARD, ROOT_ROW, YAW_RATE, integrate_root
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints
 from src.shared.pipelines.path import DrawnPath, along_path, natural_gait
@@ -21,6 +22,7 @@ from src.shared.pipelines.timeline import (
     Part,
     Timeline,
     add_parts,
+    closed,
     in_a_loop,
     make_loop,
     make_timeline,
@@ -138,6 +140,21 @@ def test_a_loop_goes_on(generator: TextToMotion, frames: int) -> None:
     step = (joints[0] - joints[-1]).abs().mean()
     steps = (joints[1:] - joints[:-1]).abs().mean((1, 2))
     assert float(step) < 2 * float(steps.max())
+
+
+@pytest.mark.parametrize(
+    ("turn", "forward", "closes"),
+    [(6.0, 0.01, True), (-340.0, 1.0, True), (90.0, 1.0, False), (-10.0, 1.2, False)],
+)
+def test_a_round_in_place_or_a_full_circle_closes(turn: float, forward: float, closes: bool):
+    features = torch.zeros(120, 23, 6)
+    features[:, ROOT_ROW, YAW_RATE] = math.radians(turn) / 4 + torch.sin(torch.arange(120.0))
+    features[:, ROOT_ROW, FORWARD] = forward
+    once = closed(features, 30.0)
+    path, heading = integrate_root(torch.cat((once, once[:1]))[:, ROOT_ROW], 30.0)
+    full = 360 * round(turn / 360) if abs(math.remainder(turn, 360)) < 45 else turn
+    assert math.degrees(float(heading[-1])) == pytest.approx(full, abs=1.0)
+    assert (float((path[-1] - path[0]).norm()) < 1e-3) is closes
 
 
 def test_a_loop_of_several_texts(generator: TextToMotion) -> None:

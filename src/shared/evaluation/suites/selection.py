@@ -29,10 +29,10 @@ from ...metrics.sanity import Bands
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
+from ...pipelines.motion_generator import PromptSampler
 from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
 from ...pipelines.song import AudioCondition, SongGenerator
 from ...pipelines.song_sampler import SongSampling
-from ...pipelines.text import PromptSampler
 from ..actions import check
 from ..engine import Progress
 from ..evaluator import Evaluator

@@ -166,7 +166,9 @@ _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
 
 
-def rest_to_rest(motion: Motion, cuts: Sequence[int] | None = None) -> Motion:
+def rest_to_rest(
+    motion: Motion, cuts: Sequence[int] | None = None, *, held: bool = False
+) -> Motion:
     """The same motion with arms that hang in its first and last frame, where they did not.
 
     Within REST_FADE seconds of an end each joint of a raised arm turns towards how it hangs, with
@@ -177,11 +179,13 @@ def rest_to_rest(motion: Motion, cuts: Sequence[int] | None = None) -> Motion:
         motion: T frames.
         cuts: instead of at the ends arms hang here: between frames c - 1 and c, at least four fades
             from each other and from the ends.
+        held: the end is left as it is.
     """
     frames, last = round(REST_FADE * motion.fps), motion.num_frames - 1
     if motion.num_frames < 4 * frames:
         return motion
-    ends = [[(0, 1)], [(last, -1)]] if cuts is None else [[(c - 1, -1), (c, 1)] for c in cuts]
+    whole = [[(0, 1)], [(last, -1)]][: 1 if held else 2]
+    ends = whole if cuts is None else [[(c - 1, -1), (c, 1)] for c in cuts]
     heights = motion.positions()[:, :, 1]
     quaternions = motion.quaternions.copy()
     left = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards

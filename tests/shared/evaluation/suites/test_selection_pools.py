@@ -20,10 +20,10 @@ from src.shared.evaluation.suites.selection import (
 )
 from src.shared.evaluation.suites.songs import held_out_songs
 from src.shared.metrics.retrieval import guo_retrieval
+from src.shared.pipelines.motion_generator import PromptSampler
 from src.shared.pipelines.ranking import AudioJudge
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampling
-from src.shared.pipelines.text import PromptSampler
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model
 from tests.shared.model.conftest import tiny_generator
 

@@ -197,6 +197,8 @@ def test_raised_hands_come_down_at_both_ends_without_a_jerk() -> None:
 
 def test_raised_hands_come_down_in_between() -> None:
     motion = waving(90)
+    held = rest_to_rest(motion, held=True)
+    assert np.array_equal(held.quaternions[-15:], motion.quaternions[-15:])
     cut = rest_to_rest(motion, [45])
     height = cut.positions()[:, JOINT_INDEX["r_wrist"], 1]
     assert height[44:46].max() < 1.0 < min(height[0], height[-1])
