@@ -19,6 +19,8 @@ from .console import (
     tell,
 )
 from .generate_request import (
+    LONGEST,
+    SHORTEST,
     Request,
     check_figures,
     check_runtime,
@@ -54,8 +56,8 @@ def generate(request: Request) -> None:
       motion-tools generate --audio song.mp3
       motion-tools generate --audio song.mp3 --prompt "a proud old man dances"
     """
-    several_windows = request.audio or request.given()
-    check_range("seconds", request.seconds, *((1.0, 7200.0) if several_windows else (0.3, 600.0)))
+    limits = (1.0, 7200.0) if request.audio or request.given() else (SHORTEST, LONGEST)
+    check_range("seconds", request.seconds, *limits)
     options.check_folder("--out", request.out)
     if request.judge is not None and request.num_samples == 1:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
@@ -83,6 +85,7 @@ def produce(request: Request) -> dict[str, Any]:
 
         if others := [flag for flag in request.given() if flag != "--path"]:
             raise UsageError(f"{others[0]} does not go with --audio; leave one out")
+        refuse_with("--audio", prompts=request.prompts)
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
@@ -95,7 +98,10 @@ def produce(request: Request) -> dict[str, Any]:
             raise UsageError(
                 f"{flag_of(name)} is about a dance; name a song with --audio, or leave it out"
             )
-    return controlled(request) if request.given() else prompted(request)
+    if given := request.given():
+        refuse_with(given[0], prompts=request.prompts)
+        return controlled(request)
+    return prompted(request)
 
 
 # ---------------------------------------------------------------- the four kinds
@@ -104,8 +110,7 @@ def produce(request: Request) -> dict[str, Any]:
 def prompted(request: Request) -> dict[str, Any]:
     """A motion for each prompt."""
     refuse_music(request, "--prompt")
-    prompts = checked_prompts(request.prompt)
-    tags, formats = checked_tags(request.tag, len(prompts)), request.body_formats()
+    prompts, lengths, tags, formats = *request.asked(), request.body_formats()
     clock = Stopwatch()
     generator = request.generator()
     clock.lap("import")
@@ -118,7 +123,7 @@ def prompted(request: Request) -> dict[str, Any]:
             prompts,
             request.num_samples,
             return_all=request.return_all,
-            seconds=4.0 if request.seconds is None else request.seconds,
+            seconds=lengths,
             tags=tags,
             sampling=request.sampling,
             foot_lock=request.foot_lock,
@@ -133,6 +138,7 @@ def prompted(request: Request) -> dict[str, Any]:
         warning = warnings[at // kept] or generator.sentences.missed(prompts[at // kept], motion)
         row |= {"sample": place, "rank": at % kept + 1}
         row |= {"seed": request.seed, "warning": warning}
+        row |= {"clauses": [each.said for each in generator.sentences.clauses(motion.text)]}
     paged = "html" in formats and len(motions) > 1
     index = files.write_index(motions, request.out) if paged else None
     clock.lap("write")

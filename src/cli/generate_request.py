@@ -1,5 +1,6 @@
 """What `generate` is asked: its options, and which of them go together."""
 
+import csv
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -7,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..shared import environment
-from ..shared.errors import UsageError
+from ..shared.errors import UsageError, UserError
+from ..shared.io.files import read_text
 from ..shared.io.storage import Place, place
 from . import generate_files as files
 from . import options
@@ -23,12 +25,21 @@ DIRECTIONS = (
 )  # fmt: skip
 
 
+SHORTEST, LONGEST = 0.3, 600.0  # seconds of a prompt
+
+
 @dataclass(frozen=True)
 class Request:
     """The options of `generate`, a field each; None = not given."""
 
     prompt: Annotated[
         list[str] | None, typer.Option(help="What the character does; repeat for several.")
+    ] = None
+    prompts: Annotated[
+        Path | None,
+        typer.Option(
+            help="Prompts from a file instead: one a line, or CSV with prompt, seconds, tag."
+        ),
     ] = None
     audio: Annotated[
         list[Path] | None, typer.Option(help="A song instead: wav, flac, ogg or mp3.")
@@ -196,6 +207,21 @@ class Request:
         """What makes the paths of songs."""
         return environment.default_audio_model() if self.model is None else self.model
 
+    def asked(self) -> tuple[list[str], list[float], list[str | None] | None]:
+        """Prompts, the seconds of each, and the tags; of --prompts, or of --prompt and --tag.
+
+        Raises:
+            UsageError: none, or they do not go together.
+            UserError: as `read_prompts`.
+        """
+        usual = 4.0 if self.seconds is None else self.seconds
+        if self.prompts is None:
+            prompts = checked_prompts(self.prompt)
+            return prompts, [usual] * len(prompts), checked_tags(self.tag, len(prompts))
+        refuse_with("--prompts", prompt=self.prompt, tag=self.tag)
+        prompts, seconds, tags = read_prompts(self.prompts)
+        return prompts, [usual if each is None else each for each in seconds], tags
+
     @property
     def path_alone(self) -> bool:
         """Whether a song is asked for, and no body."""
@@ -351,6 +377,47 @@ def check_figures(request: Request) -> None:
             f"--memory {folder} holds no figures; make some with `memory build --figures`,"
             " or give --follow-path for a memory of phrases"
         )
+
+
+def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | None]]:
+    """Prompts of a file, the seconds and the tag of each: one prompt a line, or CSV with a line of
+    names, of which prompt is one.
+
+    Raises:
+        UserError: unreadable, empty, or a column or a cell is not what it is to be; names the line.
+    """
+    text = read_text(path, "a text or CSV file of prompts, in UTF-8")
+    if path.suffix.lower() != ".csv":
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        table = [(number, {"prompt": line}) for number, line in enumerate(lines, 1)]
+    else:
+        reader = csv.DictReader(text.splitlines(), restkey="more", restval="")
+        columns = reader.fieldnames or []
+        if "prompt" not in columns or not {*columns} <= {"prompt", "seconds", "tag"}:
+            raise UserError(
+                f"--prompts {path}: its columns are {', '.join(columns) or 'none'}; give prompt,"
+                " and if you like seconds and tag"
+            )
+        table = [(reader.line_num, row) for row in reader if any(row.values())]
+    if not table:
+        raise UserError(f"--prompts {path}: holds no prompt; write one a line")
+    seconds: list[float | None] = []
+    for number, row in table:
+        if not row["prompt"].strip() or "more" in row:
+            what = "has too many cells" if "more" in row else "has no prompt"
+            raise UserError(f"--prompts {path}, line {number}: {what}; mend it")
+        try:
+            long = float(row["seconds"]) if row.get("seconds") else None
+        except ValueError:
+            long = 0.0
+        if long is not None and not SHORTEST <= long <= LONGEST:
+            raise UserError(
+                f"--prompts {path}, line {number}: {row['seconds']!r} is no number of seconds; give"
+                f" {SHORTEST} to {LONGEST:g}"
+            )
+        seconds.append(long)
+    tags = [row.get("tag", "").strip() or None for _, row in table]
+    return [" ".join(row["prompt"].split()) for _, row in table], seconds, tags
 
 
 def checked_prompts(prompts: list[str] | None) -> list[str]:

@@ -86,6 +86,15 @@ def test_what_no_sample_shows_is_told(monkeypatch: pytest.MonkeyPatch, tmp_path:
         assert ("none of 8 samples shows" in (row["warning"] or "")) is not shows
 
 
+def test_prompts_come_from_a_file_and_say_what_was_read(model: str, tmp_path: Path) -> None:
+    file = tmp_path / "npc.csv"
+    file.write_text("prompt,seconds\na person walks,1\nwalks twice,\n", encoding="utf-8")
+    arguments = ("--model", model, "--out", str(tmp_path / "out"), "--format", "npz", "--json")
+    rows = json.loads(generate("--prompts", str(file), "--seconds", "2", *arguments)[0])["motions"]
+    assert rows[0]["frames"] == 30 and rows[0]["clauses"] == [{"text": "a person walks"}]
+    assert rows[1]["clauses"] == [{"text": "walks", "count": 2}]
+
+
 def test_any_length_needs_no_warning(model: str, tmp_path: Path) -> None:
     arguments = ("--model", model, "--out", str(tmp_path), "--format", "npz", "--json")
     out, err = generate(*PROMPTS, "--seconds", "3", *arguments)
@@ -96,7 +105,7 @@ def test_any_length_needs_no_warning(model: str, tmp_path: Path) -> None:
 def test_tags_reach_the_model(model: str, tmp_path: Path) -> None:
     arguments = (*PROMPTS, "--model", model, "--out", str(tmp_path), "--format", "npz")
     generate(*arguments, "--tag", "walk", "--tag", "jump")
-    assert "did you mean 'walk'" in generate(*arguments, "--tag", "wlak", code=1)[1]
+    assert "did you mean 'walk'" in generate(*arguments, "--tag", "wlak", code=2)[1]
 
 
 def test_an_untrained_model_refuses(model: str, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """`generate` refuses wrong usage with exit code 2, before any model is loaded."""
 
 import string
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -9,6 +10,7 @@ from typer.testing import CliRunner
 
 from src.cli import generate as command
 from src.cli import generate_files
+from src.cli.generate_request import read_prompts
 from src.cli.tools import app
 from src.shared.errors import UsageError
 
@@ -23,6 +25,8 @@ WAVE = ["generate", "--prompt", "a person waves"]
         (["generate", "--prompt", "  "], "--prompt"),
         ([*WAVE, "--format", "bvh,fbx"], "'fbx'"),
         ([*WAVE, "--format", ","], "--format"),
+        ([*WAVE, "--prompts", "prompts.csv"], "--prompt does not go with --prompts"),
+        (["generate", "--prompts", "a.txt", "--loop"], "--prompts does not go with --loop"),
         ([*WAVE, "--seconds", "0"], "--seconds 0"),
         ([*WAVE, "--seconds", "nan"], "--seconds nan"),
         ([*WAVE, "--num-samples", "0"], "--num-samples 0"),
@@ -48,6 +52,39 @@ def test_wrong_usage_is_one_line_and_exit_code_2(arguments: list[str], named: st
     assert "Traceback" not in result.stderr
     if result.stderr.startswith("error:"):
         assert len(result.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "named"),
+    [
+        ("p.txt", "\n  \n", "holds no prompt"),
+        ("p.csv", "prompt,second\na,1\n", "columns are prompt, second"),
+        ("p.csv", "prompt,seconds\na,1\nb,long\n", "line 3: 'long' is no number"),
+        ("p.csv", "prompt,seconds\na,1000\n", "line 2: '1000' is no number"),
+        ("p.csv", "prompt,seconds\n,2\n", "line 2: has no prompt"),
+        ("p.csv", "prompt,seconds\na,2,walk\n", "line 2: has too many cells"),
+    ],
+)
+def test_a_faulty_file_of_prompts_names_its_line(
+    tmp_path: Path, name: str, text: str, named: str
+) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    result = runner.invoke(app, ["generate", "--prompts", str(tmp_path / name)])
+    assert result.exit_code == 1 and named in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_prompts_of_a_file(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text("a person  waves\n\nsaluda\n", encoding="utf-8")
+    assert read_prompts(tmp_path / "a.txt") == (
+        ["a person waves", "saluda"],
+        [None] * 2,
+        [None] * 2,
+    )
+    rows = 'tag,prompt,seconds\nwave,"waves, then bows",2.5\n,jumps,\n'
+    (tmp_path / "b.csv").write_text(rows, encoding="utf-8")
+    texts = ["waves, then bows", "jumps"]
+    assert read_prompts(tmp_path / "b.csv") == (texts, [2.5, None], ["wave", None])
 
 
 def test_unknown_format_is_told_before_the_model_loads() -> None:
@@ -91,7 +128,7 @@ def test_interrupt_ends_with_130_and_one_line(monkeypatch: pytest.MonkeyPatch) -
     def interrupted(_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command, "checked_prompts", interrupted)
+    monkeypatch.setattr(command, "prompted", interrupted)
     result = runner.invoke(app, WAVE)
     assert result.exit_code == 130
     assert result.stderr.startswith("interrupted") and len(result.stderr.splitlines()) == 1

@@ -191,8 +191,10 @@ def read_trajectory(path: str | Path) -> MotionTrajectory:
     path = Path(path)
     name = path.suffix.removeprefix(".").lower()
     if name not in TRAJECTORY_READERS:
-        raise UsageError(f"{path}: {name!r} is not a trajectory's ending; "
-                         f"known are {', '.join(TRAJECTORY_READERS)}")  # fmt: skip
+        raise UsageError(
+            f"{path}: {name!r} is not a trajectory's ending; known are"
+            f" {', '.join(TRAJECTORY_READERS)}; `convert` draws a body: convert CLIP CLIP.png"
+        )
     return TRAJECTORY_READERS[name](path)
 
 

@@ -9,6 +9,7 @@ Letters: N points, S samples along the path, T frames.
 """
 
 import csv
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -39,6 +40,9 @@ SHORTEST, LONGEST = 0.01, 1000.0  # metres of a path
 FASTEST = 4.0  # m/s
 MAX_POINTS = 100_000
 TURN_SPEED, TURN_REST = 75.0, 0.5  # degrees a second; seconds before and after a turn
+
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, eq=False)
@@ -437,7 +441,7 @@ def along_path(
             path.
     """
     fps = generator.card.fps
-    speed, facing, _ = natural_gait(generator, timeline.passages[0], sampling)
+    speed, facing, _, stands = natural_gait(generator, timeline.passages[0], sampling)
     alone = len(timeline.passages) == 1 and not timeline.parts
     if not alone:
         seconds = (timeline.num_frames - 1) / fps
@@ -471,7 +475,11 @@ def along_path(
     error = path_error(motion, path, drawn)
     errors = {f"path_{name}": value for name, value in vars(error).items()}
     walked = {"seconds": len(path) / fps, "length": drawn.length, "speed": speed}
-    return ControlledMotion(motion, errors | walked)
+    line = f"prompt {timeline.text!r} goes nowhere by itself; the path leads it all the same"
+    warning = line if alone and stands and drawn.length > 1.0 else None
+    if warning:
+        log.warning("%s", warning)
+    return ControlledMotion(motion, errors | walked, warning)
 
 
 class Gait(NamedTuple):
@@ -482,11 +490,13 @@ class Gait(NamedTuple):
         facing: radians from its way to its heading, a multiple of a quarter turn: a prompt may say
             backward or sideways.
         turning: radians a second, positive to the left.
+        stands: whether it goes nowhere; its speed is then that of a walk.
     """
 
     speed: float
     facing: float
     turning: float
+    stands: bool = False
 
 
 def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) -> Gait:
@@ -498,7 +508,7 @@ def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) 
     forward, lateral = ground.mean(0)
     turning = float(root[:, YAW_RATE].mean())
     if np.hypot(forward, lateral) < STANDING:
-        return Gait(NATURAL, 0.0, turning)
+        return Gait(NATURAL, 0.0, turning, stands=True)
     way = float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
     return Gait(speed, -way, turning)
 

@@ -82,6 +82,12 @@ class Clause:
         return not (self.metres is self.steps is self.degrees is None)
 
     @property
+    def said(self) -> dict[str, Any]:
+        """What it says, by name: its text, and what is not as it is where nothing is said."""
+        plain = vars(Clause(""))
+        return {name: value for name, value in vars(self).items() if value != plain[name]}
+
+    @property
     def plain(self) -> bool:
         """Whether it says nothing but what to do."""
         return self == Clause(self.text)

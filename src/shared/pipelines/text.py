@@ -535,7 +535,7 @@ class SentenceGenerator:
 
     def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own."""
-        speed, facing, _ = natural_gait(self.generator, passage, sampling)
+        speed, facing, *_ = natural_gait(self.generator, passage, sampling)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
         fps, seconds = self.card.fps, clause.seconds
         last = None if seconds is None else max(seconds * fps - 1, 1) / fps

@@ -263,7 +263,7 @@ def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
     settings = Sampling(seed=seed % 2**31)
     passage = Passage(WALK, 1)
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
-    speed, facing, _ = natural_gait(generator, passage, settings)
+    speed, facing, *_ = natural_gait(generator, passage, settings)
     path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
     return motion, path.points, drawn
 

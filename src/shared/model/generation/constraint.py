@@ -26,7 +26,7 @@ from typing import Any, Self
 import numpy as np
 
 from ...config_loader import did_you_mean
-from ...errors import UserError
+from ...errors import UsageError, UserError
 from ...motion.features import world_joints
 from ...motion.rotations import gaussian_smooth
 from ...tensors import Tensor, torch
@@ -296,5 +296,5 @@ def _tag_index(tag: str | None, known: Sequence[str]) -> int:
         return len(known)
     if tag not in known:
         hint = f"; {did_you_mean(tag, known)}known: {', '.join(known)}" if known else ""
-        raise UserError(f"tag {tag!r} is not one this model was trained with{hint}")
+        raise UsageError(f"tag {tag!r} is not one this model was trained with{hint}")
     return list(known).index(tag)
