@@ -24,7 +24,7 @@ from ..io.files import read_text
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place
+from ..motion.features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, Place
 from ..motion.filters import smoothed
 from ..motion.motion import Motion
 from ..motion.rotations import yaw_quaternion
@@ -441,7 +441,7 @@ def along_path(
             path.
     """
     fps = generator.card.fps
-    speed, facing, _, stands = natural_gait(generator, timeline.passages[0], sampling)
+    speed, facing, *_, stands = natural_gait(generator, timeline.passages[0], sampling)
     alone = len(timeline.passages) == 1 and not timeline.parts
     if not alone:
         seconds = (timeline.num_frames - 1) / fps
@@ -490,12 +490,14 @@ class Gait(NamedTuple):
         facing: radians from its way to its heading, a multiple of a quarter turn: a prompt may say
             backward or sideways.
         turning: radians a second, positive to the left.
+        height: metres of the pelvis when it has begun.
         stands: whether it goes nowhere; its speed is then that of a walk.
     """
 
     speed: float
     facing: float
     turning: float
+    height: float
     stands: bool = False
 
 
@@ -506,11 +508,11 @@ def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) 
     ground = root[:, [FORWARD, LATERAL]]
     speed = float(np.percentile(np.hypot(*ground.T), 75))  # it may have to start first
     forward, lateral = ground.mean(0)
-    turning = float(root[:, YAW_RATE].mean())
+    turning, height = float(root[:, YAW_RATE].mean()), float(np.median(root[30:, HEIGHT]))
     if np.hypot(forward, lateral) < STANDING:
-        return Gait(NATURAL, 0.0, turning, stands=True)
+        return Gait(NATURAL, 0.0, turning, height, stands=True)
     way = float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
-    return Gait(speed, -way, turning)
+    return Gait(speed, -way, turning, height)
 
 
 def natural_sway(features: Tensor, fps: float) -> np.ndarray:

@@ -22,7 +22,8 @@ from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, UNITS, all_words,
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
-ARROW, STANDS, SQUATS = " → ", "stands still", "squats down"
+ARROW, STANDS, SITS, SQUATS = " → ", "stands still", "sits", "squats down"
+BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
 HELD, HALT = "\u23f8", 2.5  # behind what is held; seconds
 GOING = frozenset({"walk", "run", "crouch-walk"})
 UNHELD = GOING | {"jump"}  # what nobody stays in
@@ -112,7 +113,12 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
             found += _held(_as_before(last, clause) if last else clause, first, read)
             last = None
             pieces = others[1:] if pair else others
-    return [clause for clause in found if clause.text] or [Clause(sentence)]
+    found = [clause for clause in found if clause.text] or [Clause(sentence)]
+    words, first = all_words(), found[0].text
+    if words.downs.search(first) or words.ups.search(first):
+        before = STANDS if words.downs.search(first) else SITS
+        found.insert(0, Clause(before, seconds=BEFORE))
+    return [replace(each, text=words.ups.sub(STANDS, each.text)) for each in found]
 
 
 def _held(clause: Clause, said: str, read: Read) -> list[Clause]:

@@ -37,6 +37,7 @@ from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import TRIES, derived_seed, retry_seeds
 from ..motion.features import (
     FORWARD,
+    HEIGHT,
     LATERAL,
     ROOT_ROW,
     YAW_RATE,
@@ -66,6 +67,7 @@ WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Seki
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS = 2.2  # of a quarter on the spot, led
 TURNING = math.radians(20.0)  # a second: less is no turn
+DOWN, DOWN_SPEED, DOWN_AHEAD = 0.15, 0.43, 6  # metres, m/s, frames before a clause's own
 HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
@@ -419,9 +421,10 @@ class SentenceGenerator:
                 stop = start + passage.frames
                 given.values[start:stop] = constraint.values
                 given.known[start:stop] = constraint.known
+        led = self._led_down(given, parts, starts, sampling)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
-        led = any(constraint is not None for _, constraint in stretches)
+        led |= any(constraint is not None for _, constraint in stretches)
         repeated = any(part.count > 1 for part in parts)
         fps = self.card.fps
         pieces = stream_features(
@@ -455,6 +458,32 @@ class SentenceGenerator:
                 joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
                 motion = rest_to_rest(motion, joins)
         return replace(motion, text=text)
+
+    def _led_down(
+        self, given: Constraint, parts: Sequence[Clause], starts: Sequence[int], sampling: Sampling
+    ) -> bool:
+        """Where somebody sits or kneels down or gets up, the pelvis is known to do so as fast as
+        people do; whether anybody does."""
+        scope, fps, found = self.generator.scope, self.card.fps, False
+        for (one, other), join in zip(pairwise(parts), starts[1:], strict=False):
+            near = {self._nearest(one.text), self._nearest(other.text)}
+            if scope is None or not near & set(scope.still):
+                continue
+            pair = (Passage(each.text, 1) for each in (one, other))
+            begin, end = (natural_gait(self.generator, each, sampling).height for each in pair)
+            down = end - begin
+            start = max(join - DOWN_AHEAD, 1)
+            frames = min(round(abs(down) / DOWN_SPEED * fps), len(given.values) - start)
+            if abs(down) < DOWN:
+                continue
+            way = np.linspace(0.0, 1.0, frames)
+            height = begin + down * way**3 * (10 - 15 * way + 6 * way * way)
+            free = ~given.known[start : start + frames, ROOT_ROW, HEIGHT]
+            column = given.values[start : start + frames, ROOT_ROW, HEIGHT]
+            column[free] = torch.as_tensor(height, dtype=column.dtype)[free]
+            given.known[start : start + frames, ROOT_ROW, HEIGHT] = True
+            found = True
+        return found
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""

@@ -157,8 +157,11 @@ class Words:
         halts = rf"{_any(all_of('halts'))}(?:\s*{_any(all_of('abruptly'))})*"
         goes_for = rf"(?=\s*{_lead()}(?:{_DIGITS}|{_any(numbers)}))"
         ends = rf"(?:{ends}|{goes_for})"
-        alone = rf"^(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}\s+{_LETTER}+)\s+)?{halts}\W*$"
+        someone = rf"(?:{_any(all_of('who'))}|{_any(all_of('own'))}\s+{_LETTER}+)\s+"
+        alone = rf"^(?:{someone})?{halts}\W*$"
         self.halts = re.compile(rf"{alone}|{further}{halts}{ends}", re.I)
+        self.downs = re.compile(_any(all_of("downs")), re.I)
+        self.ups = re.compile(rf"^(?:{someone})?{_any(all_of('ups'))}\W*$", re.I)
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))
         there = rf"(?:\s*{_any(all_of('there'))})"
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"

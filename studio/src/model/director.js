@@ -1,7 +1,7 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { cut, decodeFeatures, FORWARD, framesOf, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { cut, decodeFeatures, FORWARD, framesOf, HEIGHT, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
@@ -12,7 +12,7 @@ import { GOING, isPlain, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], HELD_SECONDS = 4, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -122,10 +122,11 @@ export class Director {
       }
       at += stretch.passage.frames;
     }
+    const down = await this.ledDown(given, parts, starts, seed);
     if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
     let features = await streamFeatures(this.sampler, passages, seed, {
       ...options,
-      constraint: led ? given : null,
+      constraint: led || down ? given : null,
       window: this.window(),
       overlap: parts.some(({ count }) => count > 1) ? REPEATED_OVERLAP : OVERLAP,
     });
@@ -146,6 +147,27 @@ export class Director {
         rested = restToRest(rested, joins.map((at) => starts[i] + at));
       }
     return { ...rested, text };
+  }
+
+  /** Where somebody sits or kneels down or gets up, the pelvis does so as fast as people do; whether anybody does. */
+  async ledDown(given, parts, starts, seed) {
+    const low = ({ text }) => this.scope.meta.still?.includes(this.nearest(text));
+    let found = false;
+    for (let i = 1; i < parts.length; i++) {
+      const pair = parts.slice(i - 1, i + 1), heights = [];
+      if (!pair.some(low)) continue;
+      for (const { text } of pair) heights.push((await naturalGait(this.sampler, text, seed)).height);
+      const down = heights[1] - heights[0], start = Math.max(starts[i] - DOWN_AHEAD, 1);
+      const frames = Math.min(round((Math.abs(down) / DOWN_SPEED) * FPS), framesOf(given.values) - start);
+      if (Math.abs(down) < DOWN) continue;
+      for (let t = 0; t < frames; t++) {
+        const way = frames > 1 ? t / (frames - 1) : 0, at = (start + t) * WIDTH + ROOT + HEIGHT;
+        if (!given.known[at]) given.values[at] = heights[0] + down * way ** 3 * (10 - 15 * way + 6 * way * way);
+        given.known[at] = 1;
+      }
+      found = true;
+    }
+    return found;
   }
 
   /** Frames of a window: no more than the model has seen, where two overlaps fit in that. */

@@ -3,7 +3,7 @@
 
 import { gaussian, gradient, interpolate, linspace, percentile, round } from "../body/curves.js";
 import { unwrap } from "../body/rotations.js";
-import { FORWARD, framesOf, LATERAL, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { FORWARD, framesOf, HEIGHT, LATERAL, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { FPS } from "../body/skeleton.js";
 import { freeConstraint, streamFeatures } from "./stream.js";
 
@@ -132,6 +132,8 @@ export function pathConstraint({ points, headings }) {
 export async function naturalGait(sampler, text, seed, options = {}) {
   const features = await streamFeatures(sampler, [{ text, frames: 90 }], seed, options);
   const speeds = [], mean = [0, 0], frames = framesOf(features);
+  const heights = Array.from({ length: frames - 30 }, (_, t) => features[(t + 30) * WIDTH + ROOT + HEIGHT]);
+  const height = percentile(heights, 50);
   let turning = 0;
   for (let t = 0; t < frames; t++) {
     const way = [features[t * WIDTH + ROOT + FORWARD], features[t * WIDTH + ROOT + LATERAL]];
@@ -139,7 +141,7 @@ export async function naturalGait(sampler, text, seed, options = {}) {
     way.forEach((v, i) => { mean[i] += v / frames; });
     turning += features[t * WIDTH + ROOT + YAW_RATE] / frames;
   }
-  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0, turning };
+  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0, turning, height };
   const facing = -round(Math.atan2(mean[1], mean[0]) / (Math.PI / 2)) * (Math.PI / 2);
-  return { speed: percentile(speeds, 75), facing, turning };
+  return { speed: percentile(speeds, 75), facing, turning, height };
 }

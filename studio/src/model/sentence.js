@@ -2,7 +2,7 @@
 // with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const ARROW = " → ", STANDS = "stands still", SQUATS = "squats down", HELD = "\u23f8", HALT = 2.5, ABOUT = 180;
+const ARROW = " → ", STANDS = "stands still", SITS = "sits", BEFORE = 0.8, SQUATS = "squats down", HELD = "\u23f8", HALT = 2.5, ABOUT = 180;
 export const GOING = ["walk", "run", "crouch-walk"];
 const UNHELD = [...GOING, "jump"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
@@ -73,8 +73,11 @@ export class SentenceReader {
         pieces = pair ? others.slice(1) : others;
       }
     }
-    const real = found.filter((clause) => clause.text);
-    return real.length ? real : [plainClause(sentence)];
+    let real = found.filter((clause) => clause.text);
+    if (!real.length) real = [plainClause(sentence)];
+    const [down, up] = ["downs", "ups"].map((name) => this.first[name].test(real[0].text));
+    if (down || up) real.unshift({ ...plainClause(down ? STANDS : SITS), seconds: BEFORE });
+    return real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) }));
   }
 
   /** A clause; where it is held and nobody can stay in it, what comes to a stand behind it. */

@@ -477,6 +477,14 @@ def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
         ("手を上げてそのままでいる", ["手を上げて"]),
         ("他举起右手一直举着", ["他举起右手"]),
         ("he stays down", ["he stays down"]),
+        # who sits down stands before, who gets up sits
+        ("a person sits down", ["stands still", "a person sits down"]),
+        ("walks and then kneels down", ["walks", "kneels down"]),
+        ("he stands up", ["sits", "stands still"]),
+        ("sie setzt sich, dann steht sie auf", ["stands still", "sie setzt sich", "steht sie auf"]),
+        ("坐下，然后站起来", ["stands still", "坐下", "stands still"]),
+        ("sits on a chair", ["sits on a chair"]),
+        ("squats down and stands up again", ["squats down and stands up again"]),
         # a side alone
         ("steps to the right and then to the left", ["steps to the right", "steps to the left"]),
         ("geht nach links, dann nach rechts", ["geht nach links", "geht nach rechts"]),

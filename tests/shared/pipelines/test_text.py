@@ -152,6 +152,16 @@ def test_what_is_held_stays(starter: TextToMotion):
     assert steps[:60].mean() > 0.9 and steps[-20:].mean() < 0.2
 
 
+def test_who_sits_down_stands_before_and_does_not_fall(starter: TextToMotion):
+    made = SentenceGenerator(starter)
+    for text in ("a person kneels down", "a person stands up"):
+        (motion,) = made.generate([text], seconds=3)
+        height = motion.root_position[:, 1]
+        ends = (height[:10].mean(), height[75:].mean())
+        assert min(ends) < 0.7 and max(ends) > 0.9 and bool(ends[0] > ends[1]) is ("down" in text)
+        assert np.abs(np.diff(height)).max() * 30 < 1.3  # m/s; 2 where it is not led
+
+
 def test_a_loop_of_a_stand_neither_creeps_nor_turns(starter: TextToMotion):
     timeline = Timeline((Passage("a person stands", 90),))
     made = SentenceGenerator(starter).loop(timeline, Sampling(seed=1))
