@@ -169,6 +169,8 @@ PHYSICS: MetricFamily[MotionSample] = MetricFamily.of(
 CONTACT: MetricFamily[MotionSample] = MetricFamily.of(
     "feet and floor", lambda sample, *_: sample.each("contact", contact)
 )
+TRAVEL = MetricFamily.of("travel", _travel)
+OBEDIENCE = MetricFamily.of("obedience", _obeyed)
 TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     MetricFamily.of("retrieval", _guo),
     *TMR,
@@ -177,8 +179,8 @@ TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     BODY_KINETICS,
     PHYSICS,
     CONTACT,
-    MetricFamily.of("travel", _travel),
-    MetricFamily.of("obedience", _obeyed),
+    TRAVEL,
+    OBEDIENCE,
 )
 
 
