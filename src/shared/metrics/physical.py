@@ -26,6 +26,12 @@ def heading_of(motion: Motion) -> np.ndarray:
     return np.asarray(headings(pelvis).numpy())
 
 
+def ahead_and_left(steps: np.ndarray, heading: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    """Steps [..., 3] over the ground as seen along headings [...] in radians: two parts [...]."""
+    x, z, sine, cosine = steps[..., 0], steps[..., 2], np.sin(heading), np.cos(heading)
+    return x * sine + z * cosine, x * cosine - z * sine
+
+
 def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
     """Horizontal speed [T - 1, ...] in m/s of positions [T, ..., 3]."""
     return np.asarray(np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps)
