@@ -35,7 +35,7 @@ from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..samples import Dance, DanceSample, Memo, Trajectories, untrained_audio_model
-from ..tables import Grid, GridRow, Report
+from ..tables import Grid, GridRow, Report, beside_null
 from .alignment import alignment_grids, danced, phase_row, plot_phase, right_tempo
 from .songs import (
     TEMPI,
@@ -337,11 +337,7 @@ def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
     end, of = (f"/{row}", f", {row}") if row else ("", "")
     rows = {}
     for name, found in seams["quantities"].items():
-        cells = {
-            key: f"{r['value']:.3f} [{r['low']:.3f}, {r['high']:.3f}]"
-            f" ({r['null_low']:.3f}–{r['null_high']:.3f})"
-            for key, r in (("p50", found["ratio_p50"]), ("p95", found["ratio_p95"]))
-        }
+        cells = {key: beside_null(found[f"ratio_{key}"], 3) for key in ("p50", "p95")}
         cells["medians"] = f"{found['seam_p50']:.3g} / {found['elsewhere_p50']:.3g}"
         cells["ks"] = f"{found['ks']['value']:.3f} (p {found['ks']['p']:.2f})"
         rows[f"{name.replace('_', ' ')}, {UNITS[name]}"] = GridRow(cells)

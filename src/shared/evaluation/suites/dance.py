@@ -23,7 +23,7 @@ from ...formats.arrays import write_npz
 from ...memory.figures import FigureMemory
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import body_beats, limb_beats, rhythm
-from ...metrics.seams import ORDERS, body_quantities, compare, marked, starts
+from ...metrics.seams import ORDERS, body_quantities, compare, marked, split, starts
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
@@ -43,7 +43,7 @@ from ..families import DANCE_FAMILIES, MOMENTS
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained
 from ..stats import Estimate, bootstrap_columns
-from ..tables import Grid, GridRow, Report
+from ..tables import Grid, GridRow, Report, beside_null
 from .alignment import alignment_grids, danced
 from .editing import EditContext
 from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
@@ -385,23 +385,22 @@ def seam_grid(
     }
     found: dict[str, GridRow] = {}
     for who, dances in rows.items():
-        marked = [(body_quantities(d.motion), d.seams) for d in dances
+        seamed = [(body_quantities(d.motion), d.seams) for d in dances
                   if d.seams is not None and d.seams.any()]  # fmt: skip
-        for name, limit in limits.items() if marked else ():
-            pairs = [(values[name], seams) for values, seams in marked]
-            found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
+        for name, limit in limits.items() if seamed else ():
+            pairs = [(values[name], seams) for values, seams in seamed]
+            found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(seamed), 1)
     if not found:
         return []
-    number = sum(len(starts(seams)) for _, seams in marked)
-    return [Grid.of("body-seams", found, {"seams": number, "dances": len(marked)})]
+    number = sum(len(starts(seams)) for _, seams in seamed)
+    return [Grid.of("body-seams", found, {"seams": number, "dances": len(seamed)})]
 
 
 def _cells(
     pairs: Sequence[tuple[np.ndarray, np.ndarray]], limit: float, seed: int
 ) -> dict[str, Any]:
     """One row: quantiles, shares beyond the limit, and the ratio with its intervals."""
-    seam = np.concatenate([values[mask] for values, mask in pairs])
-    other = np.concatenate([values[~mask] for values, mask in pairs])
+    seam, other = split(pairs)
     ratio = compare(pairs, seed)["ratio_p50"]
     return {
         "seam": float(np.percentile(seam, SEAM_TOP)),
@@ -409,8 +408,7 @@ def _cells(
         "real": limit,
         "beyond_seam": 100 * float((seam > limit).mean()),
         "beyond_elsewhere": 100 * float((other > limit).mean()),
-        "ratio": f"{ratio['value']:.2f} [{ratio['low']:.2f}, {ratio['high']:.2f}]"
-        f" ({ratio['null_low']:.2f}–{ratio['null_high']:.2f})",
+        "ratio": beside_null(ratio, 2),
     }
 
 

@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.evaluation.evaluator import padded
 from src.shared.evaluation.samples import untrained_audio_tower
 from src.shared.evaluation.suites.space import (
     CHANCE,
@@ -20,7 +21,6 @@ from src.shared.evaluation.suites.space import (
     Windows,
     evaluate_space,
     in_common,
-    padded,
     related,
     tempo_alone,
 )
