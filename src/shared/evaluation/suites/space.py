@@ -309,20 +309,12 @@ class SpaceSettings:
     seed: int = 0
 
 
-@dataclass(frozen=True)
-class Texts:
-    """A text tower with its tokenizer."""
-
-    tower: TextTower
-    tokenizer: PromptTokenizer
-
-
 def evaluate_space(
     space: SharedSpace,
     data: str,
     *,
     split: str = "test",
-    texts: Texts | None = None,
+    texts: tuple[TextTower, PromptTokenizer] | None = None,
     settings: SpaceSettings | None = None,
     about: dict[str, str] | None = None,
     progress: Progress = lambda text: None,
@@ -362,7 +354,7 @@ def evaluate_space(
     if texts is not None and not all(captions):
         progress("phrases without captions: texts are left out")
     elif texts is not None:
-        spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
+        spoken = space.embed_text(captions, *texts)
         blind = held_out.embed_bodies(untrained_motion_tower(space, settings.seed))
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [
