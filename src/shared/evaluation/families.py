@@ -204,10 +204,9 @@ def beat_scores(times: np.ndarray, dance: Dance[Any], rng: np.random.Generator) 
 
 
 def _on_beats(sample: Trajectories, reference: Trajectories, seed: int) -> list[dict[str, float]]:
-    pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
     return [
         beat_scores(beats, dance, np.random.default_rng([seed, 2, index]))
-        for index, (dance, beats) in enumerate(pairs)
+        for index, (dance, beats) in enumerate(sample.beside("beats", beats_of))
     ]
 
 
@@ -294,7 +293,7 @@ def _ground(motion: Motion) -> dict[str, float]:
 
 def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
     rows = []
-    for dance, after in zip(sample.dances, sample.each("feet", _ground), strict=True):
+    for dance, after in sample.beside("feet", _ground):
         before = after
         if dance.raw is not None:
             before = dance.memo.once("feet before", partial(_ground, dance.raw))

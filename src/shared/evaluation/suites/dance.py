@@ -34,7 +34,7 @@ from ...pipelines.body import Performer, PerformerSettings
 from ...pipelines.choreography import Choreographer, Wish
 from ...pipelines.dance import candidate_seed
 from ...pipelines.figure_dance import FigureDancer
-from ...pipelines.song import SongCondition, SongGenerator, finished, own_noise
+from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
@@ -44,9 +44,9 @@ from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained
 from ..stats import Estimate, bootstrap_columns
 from ..tables import Grid, GridRow, Report, beside_null
-from .alignment import alignment_grids, danced
+from .alignment import alignment_grids
 from .editing import EditContext
-from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
+from .songs import Piece, captured_dances, held_out_songs, real_dances, sung, tracks
 
 PROMPTS = (
     "a person dances", "a proud person dances", "a young person dances to the music",
@@ -113,10 +113,8 @@ class DanceContext:
         """The path of a song in a replication, post-processed as it is pinned."""
 
         def make() -> MotionTrajectory:
-            piece, settings = self.pieces[number], SongSampling(seed=self.settings.seed)
-            settings = own_noise(settings, replication, crc32(piece.name.encode()))
-            (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
-            return finished(made)
+            settings = SongSampling(seed=self.settings.seed)
+            return finished(sung(self.singer, self.pieces[number], settings, replication))
 
         return self.memo.once(f"path {number} {replication}", make)
 
@@ -269,7 +267,7 @@ class DanceContext:
         found = {}
         for name, sample in groups.items():
             key = "limbs_" if name.startswith("limbs") else ""
-            found[name] = danced(sample, key + "beats", MOMENTS[key])
+            found[name] = sample.beside(key + "beats", MOMENTS[key])
         return alignment_grids(found, self.settings.seed)
 
     def seams(self) -> list[Grid]:

@@ -30,7 +30,7 @@ from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.motion_generator import PromptSampler
 from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
-from ...pipelines.song import AudioCondition, SongGenerator
+from ...pipelines.song import AudioCondition, SongGenerator, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ..engine import Progress, Value
 from ..evaluator import Evaluator
@@ -411,8 +411,7 @@ def song_pool(
     for number, piece in enumerate(pieces, start=1):
         progress(f"candidates for song {number} of {len(pieces)}")
         # Noise of each song's own: one noise for all would make a replication one draw, not P.
-        noise = int(np.random.SeedSequence((settings.seed, number)).generate_state(1)[0])
-        own = replace(settings, seed=noise)
+        own = own_noise(settings, number)
         made.append(generator.generate(piece.condition, phase=piece.phase, settings=own))
         heard = AudioCondition(piece.condition).time()
         tables.append(judge.judge(made[-1], None if heard is None else heard[1]))
