@@ -10,7 +10,6 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-from scipy.spatial.distance import pdist
 
 from ..metrics import frechet, kinetic, retrieval, rhythm
 from ..metrics.measurements import measure
@@ -92,7 +91,7 @@ def _multimodality(sample: MotionSample, reference: MotionSample, seed: int) -> 
     distance, num_prompts = frechet.within_prompts(sample.motion, sample.clips.captions)
     if not num_prompts:
         return {}
-    every = float(pdist(sample.motion.astype(np.float64)).mean())
+    every = kinetic.mean_pairwise(sample.motion.astype(np.float64))
     return {
         "multimodality": distance,
         "multimodality_share": distance / every if every else float("nan"),
