@@ -381,17 +381,17 @@ def seam_grid(
         name: float(np.percentile(np.concatenate([each[name] for each in sizes]), SEAM_TOP))
         for name in ORDERS
     }
-    found: dict[str, GridRow] = {}
+    found, counted = dict[str, GridRow](), dict[str, int]()
     for who, dances in rows.items():
         seamed = [(body_quantities(d.motion), d.seams) for d in dances
                   if d.seams is not None and d.seams.any()]  # fmt: skip
+        if not counted:  # of the first, which the title tells of
+            number = sum(len(starts(seams)) for _, seams in seamed)
+            counted = {"seams": number, "dances": len(seamed)} if seamed else {}
         for name, limit in limits.items() if seamed else ():
             pairs = [(values[name], seams) for values, seams in seamed]
             found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(seamed), 1)
-    if not found:
-        return []
-    number = sum(len(starts(seams)) for _, seams in seamed)
-    return [Grid.of("body-seams", found, {"seams": number, "dances": len(seamed)})]
+    return [Grid.of("body-seams", found, counted)] if found else []
 
 
 def _cells(
