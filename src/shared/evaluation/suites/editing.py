@@ -159,21 +159,20 @@ class EditContext:
 
     def paths(self) -> list[Grid]:
         """A row a shape and a maker."""
-        rows = {}
-        number = self.settings.repeats
+        rows, number = dict[str, GridRow](), self.settings.repeats
         seeds = np.random.SeedSequence(self.settings.seed).generate_state(number).tolist()
         for shape, drawn in drawn_paths().items():
+            made = dict[str, list[Followed]]()
             for who, generator in self.generators.items():
                 self.progress(f"paths: {shape}, {who}")
-                made = [_follow(generator, drawn, seed) for seed in seeds]
-                rows[f"{shape}: {who}"] = _path_row(made, drawn)
-            still = [(held_still(motion), points) for motion, points in made]
-            rows[f"{shape}: frozen pose"] = _path_row(still, drawn)
-            free = []
-            for seed, (motion, points) in enumerate(made):
-                (alone,) = self.generator.generate([WALK], seconds=motion.seconds, seed=seed)
-                free.append((alone, points))
-            rows[f"{shape}: words alone"] = _path_row(free, drawn)
+                made[who] = [_follow(generator, drawn, seed) for seed in seeds]
+            own = made["generated"]
+            made["frozen pose"] = [(held_still(motion), points) for motion, points in own]
+            made["words alone"] = [
+                (self.generator.generate([WALK], seconds=motion.seconds, seed=seed)[0], points)
+                for seed, (motion, points) in enumerate(own)
+            ]
+            rows |= {f"{shape}: {who}": _path_row(each, drawn) for who, each in made.items()}
         return [Grid.of("paths", rows, {"num": number})]
 
     def transitions(self, judge: Evaluator) -> list[Grid]:
