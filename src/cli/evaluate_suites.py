@@ -451,7 +451,7 @@ def evaluate_space(
     options.check_pairs(data)
     options.check_folder("--out", out)
 
-    from ..shared.evaluation.suites.space import SpaceSettings, Texts, evaluate_space
+    from ..shared.evaluation.suites.space import SpaceSettings, evaluate_space
     from ..shared.model.audio.shared_space import SharedSpace
     from ..shared.model.generation.motion_generator import TextToMotion
 
@@ -460,7 +460,7 @@ def evaluate_space(
     texts = None
     if text != NO_TEXT:
         generator = TextToMotion.from_pretrained(text, device="cpu")
-        texts = Texts(generator.text, generator.tokenizer)
+        texts = generator.text, generator.tokenizer
     report = evaluate_space(
         space,
         data,

@@ -10,14 +10,13 @@ import numpy as np
 import torch
 from pydantic import Field
 from torch import Tensor, nn
-from torch.nn.utils.rnn import pad_sequence
 
 from ..shared.config_schema import TrainConfig
 from ..shared.data.captions.book import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.errors import UserError
-from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, joint_features
+from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, joint_features, padded
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from .launch import Stage
 from .task import Part, Task, mix_seed
@@ -96,13 +95,11 @@ class PairSet:
         rows = rng.choice(len(self), size=size, p=self.weights)
         captions = [self._caption(row, rng) for row in rows]
         clips = [self._window(self.joints[row], rng) for row in rows]
-        lengths = torch.tensor([len(clip) for clip in clips])
-        joints = pad_sequence(clips, batch_first=True).float()
-        mask = torch.arange(joints.shape[1])[None] < lengths[:, None]
+        joints, mask = padded(clips)
         group = torch.from_numpy(self.groups[rows])
         text = torch.from_numpy(np.unique(captions, return_inverse=True)[1])
         same = (group[:, None] == group[None]) | (text[:, None] == text[None])
-        return PairBatch(captions, joints, mask, same)
+        return PairBatch(captions, joints.float(), mask, same)
 
     def _caption(self, row: int, rng: np.random.Generator) -> str:
         captions = self.captions[row]

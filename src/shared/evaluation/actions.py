@@ -37,7 +37,7 @@ from ..metrics.measurements import (
     measure,
     repetitions,
 )
-from ..metrics.physical import heading_of
+from ..metrics.physical import ahead_and_left, heading_of
 from ..model.clip.out_of_domain import TWINS
 from ..motion.features import decode_features
 from ..motion.motion import Motion
@@ -74,13 +74,11 @@ def descriptor(motion: Motion) -> np.ndarray:
     """
     joints = motion.positions().astype(np.float64)  # T K 3
     heading = np.unwrap(heading_of(motion).astype(np.float64))
-    sine, cosine = np.sin(heading), np.cos(heading)
     body = heading_frame(joints, heading)
     velocity = np.diff(body, axis=0) * motion.fps  # T-1 K 3
     speed = np.linalg.norm(velocity, axis=-1)
     step = np.diff(joints[:, 0], axis=0) * motion.fps
-    forward = step[:, 0] * sine[:-1] + step[:, 2] * cosine[:-1]
-    lateral = step[:, 0] * cosine[:-1] - step[:, 2] * sine[:-1]
+    forward, lateral = ahead_and_left(step, heading[:-1])
     yaw_rate = np.diff(heading) * motion.fps
     height = joints[:, 0, 1]
     travel = [

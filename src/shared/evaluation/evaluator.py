@@ -189,10 +189,7 @@ class Evaluator(nn.Module):
         for start in range(0, len(order), batch_size):
             rows = order[start : start + batch_size]
             joints = joint_features([clips[row].float().to(self.device) for row in rows])
-            lengths = torch.tensor([len(clip) for clip in joints], device=self.device)
-            padded = pad_sequence(joints, batch_first=True)
-            mask = torch.arange(padded.shape[1], device=self.device)[None] < lengths[:, None]
-            result[rows] = self.motion(padded, mask).float().cpu()
+            result[rows] = self.motion(*padded(joints)).float().cpu()
         return result
 
     def embed_windows(self, motion: Motion) -> np.ndarray:
@@ -271,6 +268,13 @@ def evaluator_folder(name: Path | str) -> Path:
 
 
 # ---------------------------------------------------------------- what it sees of a motion
+
+
+def padded(parts: Sequence[Tensor]) -> tuple[Tensor, Tensor]:
+    """[T, ...] each -> [B, T, ...] with zeros at the ends, and mask [B, T]."""
+    values = pad_sequence(list(parts), batch_first=True)
+    lengths = torch.tensor([len(part) for part in parts], device=values.device)
+    return values, torch.arange(values.shape[1], device=values.device) < lengths[:, None]
 
 
 def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:

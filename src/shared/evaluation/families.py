@@ -10,7 +10,6 @@ from itertools import chain
 from typing import Any
 
 import numpy as np
-from scipy.spatial.distance import pdist
 
 from ..metrics import frechet, kinetic, retrieval, rhythm
 from ..metrics.measurements import measure
@@ -92,7 +91,7 @@ def _multimodality(sample: MotionSample, reference: MotionSample, seed: int) -> 
     distance, num_prompts = frechet.within_prompts(sample.motion, sample.clips.captions)
     if not num_prompts:
         return {}
-    every = float(pdist(sample.motion.astype(np.float64)).mean())
+    every = kinetic.mean_pairwise(sample.motion.astype(np.float64))
     return {
         "multimodality": distance,
         "multimodality_share": distance / every if every else float("nan"),
@@ -169,6 +168,8 @@ PHYSICS: MetricFamily[MotionSample] = MetricFamily.of(
 CONTACT: MetricFamily[MotionSample] = MetricFamily.of(
     "feet and floor", lambda sample, *_: sample.each("contact", contact)
 )
+TRAVEL = MetricFamily.of("travel", _travel)
+OBEDIENCE = MetricFamily.of("obedience", _obeyed)
 TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     MetricFamily.of("retrieval", _guo),
     *TMR,
@@ -177,8 +178,8 @@ TEXT_FAMILIES: tuple[MetricFamily[MotionSample], ...] = (
     BODY_KINETICS,
     PHYSICS,
     CONTACT,
-    MetricFamily.of("travel", _travel),
-    MetricFamily.of("obedience", _obeyed),
+    TRAVEL,
+    OBEDIENCE,
 )
 
 
@@ -202,10 +203,9 @@ def beat_scores(times: np.ndarray, dance: Dance[Any], rng: np.random.Generator) 
 
 
 def _on_beats(sample: Trajectories, reference: Trajectories, seed: int) -> list[dict[str, float]]:
-    pairs = zip(sample.dances, sample.each("beats", beats_of), strict=True)
     return [
         beat_scores(beats, dance, np.random.default_rng([seed, 2, index]))
-        for index, (dance, beats) in enumerate(pairs)
+        for index, (dance, beats) in enumerate(sample.beside("beats", beats_of))
     ]
 
 
@@ -292,7 +292,7 @@ def _ground(motion: Motion) -> dict[str, float]:
 
 def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]]:
     rows = []
-    for dance, after in zip(sample.dances, sample.each("feet", _ground), strict=True):
+    for dance, after in sample.beside("feet", _ground):
         before = after
         if dance.raw is not None:
             before = dance.memo.once("feet before", partial(_ground, dance.raw))

@@ -170,6 +170,12 @@ class DanceSample(Generic[Moved]):
         """What `measure` says of each of the N motions, its music apart, computed once a motion."""
         return [dance.memo.once(name, partial(measure, dance.motion)) for dance in self.dances]
 
+    def beside(
+        self, name: str, measure: Callable[[Moved], Found]
+    ) -> list[tuple[Dance[Moved], Found]]:
+        """Each dance with what `each` finds of it."""
+        return list(zip(self.dances, self.each(name, measure), strict=True))
+
     def rows(self, index: Sequence[int]) -> "DanceSample[Moved]":
         """The dances at these rows, in this order."""
         rows = [self.dances[i] for i in index]

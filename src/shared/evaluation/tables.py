@@ -173,6 +173,12 @@ def interval(cell: Mapping[str, Any] | None, decimals: int) -> str:
     return f"{text} ±{number(half, decimals)}" if half > 0 else text
 
 
+def beside_null(ratio: Mapping[str, float], decimals: int) -> str:
+    """`value [interval] (interval of the null)` of a ratio of `metrics.seams.compare`."""
+    text = "{value:.{d}f} [{low:.{d}f}, {high:.{d}f}] ({null_low:.{d}f}–{null_high:.{d}f})"
+    return text.format(**ratio, d=decimals)
+
+
 def cell_text(cell: Cell, column: Column) -> str:
     """Any cell as words; an estimate that is `apart` has a star."""
     if cell is None or isinstance(cell, str):

@@ -13,12 +13,17 @@ import numpy as np
 from scipy.spatial.distance import pdist
 
 
+def finite(embeddings: np.ndarray) -> np.ndarray:
+    """Embeddings [N, D] in float64. Raises ValueError: NaN or infinity."""
+    if not np.isfinite(embeddings).all():
+        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    return embeddings.astype(np.float64)
+
+
 def _moments(samples: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     if samples.ndim != 2 or len(samples) < 2:
         raise ValueError(f"a sample of shape {samples.shape} needs [N >= 2, D]")
-    if not np.isfinite(samples).all():
-        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
-    values = samples.astype(np.float64)
+    values = finite(samples)
     return values.mean(0), np.atleast_2d(np.cov(values, rowvar=False))
 
 
@@ -148,9 +153,7 @@ def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[floa
     """
     if len(embeddings) != len(prompts):
         raise ValueError(f"{len(embeddings)} embeddings and {len(prompts)} prompts are not aligned")
-    values = embeddings.astype(np.float64)
-    if not np.isfinite(values).all():
-        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    values = finite(embeddings)
     ids = np.unique(list(prompts), return_inverse=True)[1]
     again = np.flatnonzero(np.bincount(ids) > 1)
     means = [pdist(values[ids == prompt]).mean() for prompt in again]

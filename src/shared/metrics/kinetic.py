@@ -26,6 +26,7 @@ from ..motion.rotations import angular_velocity
 from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..motion.trajectory import MotionTrajectory
 from .frechet import Projection, frechet_distance
+from .physical import ahead_and_left
 
 WINDOW = 2  # frames on either side of a velocity or an acceleration
 KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint
@@ -225,9 +226,7 @@ def root_geometric_features(trajectory: MotionTrajectory) -> Array:
     path = _checked(trajectory.position)
     velocity = windowed_mean(np.diff(path, axis=0)) * trajectory.fps  # T-1 3
     height = path[:-1, 1] / REST_PELVIS_HEIGHT
-    sine, cosine = np.sin(trajectory.heading[:-1]), np.cos(trajectory.heading[:-1])
-    ahead = velocity[:, 0] * sine + velocity[:, 2] * cosine
-    left = velocity[:, 0] * cosine - velocity[:, 2] * sine
+    ahead, left = ahead_and_left(velocity, trajectory.heading[:-1])
     turn = windowed_mean(_turning(trajectory))[:, 1]
     _, x, _, z = trajectory.quaternion[:-1].T.astype(np.float64)
     upright = 1 - 2 * (x**2 + z**2)  # y of the turned up axis

@@ -17,7 +17,7 @@ from ..motion.features import headings
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
-from .physical import heading_of
+from .physical import ahead_and_left, heading_of
 
 Array = np.ndarray
 Pair = tuple[float, float]
@@ -159,9 +159,8 @@ def _tracks(motion: Motion) -> _Tracks:
 def heading_frame(joints: Array, heading: Array) -> Array:
     """Joints [T,K,3] seen from the pelvis, turned so that the heading [T] is +Z."""
     seen = joints - joints[:, :1]
-    sine, cosine = np.sin(heading)[:, None], np.cos(heading)[:, None]
-    x, y, z = seen[..., 0], seen[..., 1], seen[..., 2]
-    return np.stack((x * cosine - z * sine, y, x * sine + z * cosine), -1)
+    ahead, left = ahead_and_left(seen, heading[:, None])
+    return np.stack((left, seen[..., 1], ahead), -1)
 
 
 def measure(motion: Motion) -> Measurements:
@@ -199,14 +198,11 @@ def _travel(tracks: _Tracks) -> Figures:
     path = smooth(tracks.joints[:, 0], round(0.3 * tracks.fps))
     step = np.diff(path, axis=0)
     heading = tracks.heading
-    sine, cosine = np.sin(heading[:-1]), np.cos(heading[:-1])
-    forward = step[:, 0] * sine + step[:, 2] * cosine
-    lateral = step[:, 0] * cosine - step[:, 2] * sine
+    forward, lateral = ahead_and_left(step, heading[:-1])
     ground = np.hypot(step[:, 0], step[:, 2])
     moving = ground * tracks.fps > 0.12
     seconds = max(moving.sum() / tracks.fps, 0.5)
-    net = path[-1] - path[0]
-    s0, c0 = np.sin(heading[0]), np.cos(heading[0])
+    forward_net, lateral_net = ahead_and_left(path[-1] - path[0], heading[0])
     total = np.array([lateral.sum(), forward.sum()])
     along = total / max(float(np.hypot(*total)), 1e-6)
     apart = tracks.seen("l_ankle") - tracks.seen("r_ankle")
@@ -215,8 +211,8 @@ def _travel(tracks: _Tracks) -> Figures:
     return {
         "forward": float(forward.sum()),
         "lateral": float(lateral.sum()),
-        "forward_net": float(net[0] * s0 + net[2] * c0),
-        "lateral_net": float(net[0] * c0 - net[2] * s0),
+        "forward_net": float(forward_net),
+        "lateral_net": float(lateral_net),
         "forward_speed": float(forward[moving].sum() / seconds),
         "lateral_speed": float(lateral[moving].sum() / seconds),
         "speed": float(ground[moving].sum() / seconds),

@@ -26,6 +26,12 @@ def heading_of(motion: Motion) -> np.ndarray:
     return np.asarray(headings(pelvis).numpy())
 
 
+def ahead_and_left(steps: np.ndarray, heading: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    """Steps [..., 3] over the ground as seen along headings [...] in radians: two parts [...]."""
+    x, z, sine, cosine = steps[..., 0], steps[..., 2], np.sin(heading), np.cos(heading)
+    return x * sine + z * cosine, x * cosine - z * sine
+
+
 def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
     """Horizontal speed [T - 1, ...] in m/s of positions [T, ..., 3]."""
     return np.asarray(np.linalg.norm(np.diff(positions[..., [0, 2]], axis=0), axis=-1) * fps)
@@ -57,19 +63,20 @@ def mean_jerk(positions: np.ndarray, fps: float) -> float:
 
 def worst_acceleration(motion: Motion) -> np.ndarray:
     """m/s² of the worst joint [T - 2]."""
-    return np.asarray(_acceleration(motion).max(1))
+    positions = motion.positions().astype(np.float64)
+    return np.asarray(joint_rates(positions, motion.fps, 2).max(1))
 
 
 def foot_jump(motion: Motion) -> float:
     """Largest acceleration of an ankle or a ball, m/s²: 180 where a foot is 20 cm away in the next
     of 30 frames a second."""
-    return float(_acceleration(motion)[:, np.ravel(FOOT_JOINTS)].max())
+    positions = motion.positions()[:, np.ravel(FOOT_JOINTS)].astype(np.float64)
+    return float(joint_rates(positions, motion.fps, 2).max())
 
 
-def _acceleration(motion: Motion) -> np.ndarray:
-    """Of every joint [T - 2, K], m/s²."""
-    second = np.diff(motion.positions().astype(np.float64), n=2, axis=0) * motion.fps**2
-    return np.asarray(np.linalg.norm(second, axis=-1))
+def joint_rates(positions: np.ndarray, fps: float, order: int) -> np.ndarray:
+    """Size [T - order, K] of the derivative of positions [T, K, 3] of an order, metres, seconds."""
+    return np.asarray(np.linalg.norm(np.diff(positions, n=order, axis=0) * fps**order, axis=-1))
 
 
 HANDS = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]

@@ -20,6 +20,8 @@ import numpy as np
 from scipy.special import gammaln
 from scipy.stats import rankdata
 
+from .frechet import finite
+
 BATCH = 32
 TOP = (1, 2, 3)
 Seed = int | Sequence[int] | np.random.Generator
@@ -102,9 +104,8 @@ def guo_retrieval(
         )
     if len(text) < BATCH:
         raise ValueError(f"{len(text)} pairs are fewer than one batch of {BATCH}: add samples")
-    if not (np.isfinite(text).all() and np.isfinite(motion).all()):
-        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
-    return np.concatenate([hits for _, hits in in_batches(text, motion, equal_by, seed)], axis=1)
+    found = in_batches(finite(text), finite(motion), equal_by, seed)
+    return np.concatenate([hits for _, hits in found], axis=1)
 
 
 def in_batches(
@@ -184,9 +185,7 @@ def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:
-    values = vectors.astype(np.float64)
-    if not np.isfinite(values).all():
-        raise ValueError("embeddings hold NaN or infinity: look at the motions they came from")
+    values = finite(vectors)
     length = np.linalg.norm(values, axis=1, keepdims=True)
     if not length.all():
         raise ValueError("an embedding of length 0 has no direction to compare")

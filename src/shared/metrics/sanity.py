@@ -1,15 +1,11 @@
 """The sanity suite: does a trajectory hold together, and does it move as people do? (ruling 18)
 
-TECH §10.1's five checks, quaternion continuity and phase monotonicity (REF), all of what the model
-gave before clamping. TECH's thresholds alone pass an untrained decoder and a frozen pose, so three
-things are added: a jerk bound that noise misses, a floor and a ceiling on the path itself
-(`liveliness`, `roughness`), and, where the bands of real motions are given, each figure of the
-path against them.
-
-The checks look at the columns as a model gave them, before any clamping. The measures look at the
-path itself, position and orientation, never at the columns that claim to be its derivatives: they
-tell motion from noise and from standing still. A band is the 5th to 95th percentile of a figure
-over real motions, stored as JSON.
+TECH §10.1's five checks, quaternion continuity and phase monotonicity (REF) look at the columns as
+a model gave them, before any clamping. TECH's thresholds alone pass an untrained decoder and a
+frozen pose, so three things are added: a jerk bound that noise misses, a floor and a ceiling on the
+path itself (`liveliness`, `roughness`), and, where the bands of real motions are given, each
+measure of the path against them: of position and orientation, never of the columns that claim to
+be their derivatives.
 
 Measured on 2,667 clips of Bandai-Namco and CMU mocap (walking, running, dancing, waving; 30 fps):
 mean jerk 5 to 217 m/s³ (5th to 95th percentile), at most 455; mean speed from 0.0055 m/s (standing,

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
+from .physical import joint_rates
 
 REACH = 3  # frames around a seam: differences look ahead, and known frames end with it
 POINTS = (50, 95)  # percentiles
@@ -62,12 +63,9 @@ def body_quantities(motion: Motion) -> dict[str, np.ndarray]:
     positions = motion.positions().astype(np.float64)
     found = {}
     for name, order in ORDERS.items():
-        sizes = np.zeros(motion.num_frames)
-        if motion.num_frames > order:
-            change = np.diff(positions, n=order, axis=0) * motion.fps**order
-            before = order // 2
-            sizes[before : before + len(change)] = np.linalg.norm(change, axis=-1).max(1)
-        found[name] = sizes
+        sizes = joint_rates(positions, motion.fps, order).max(1)
+        missing = motion.num_frames - len(sizes)
+        found[name] = np.pad(sizes, (order // 2, missing - order // 2))
     return found
 
 
@@ -103,9 +101,9 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
         and p, the share of turned marks whose distance is as large.
     """
     rng = np.random.default_rng(seed)
-    seam, other = _split(songs)
+    seam, other = split(songs)
     draws = rng.integers(0, len(songs), (n, len(songs)))
-    drawn = np.array([_ratios(*_split([songs[i] for i in draw])) for draw in draws])
+    drawn = np.array([_ratios(*split([songs[i] for i in draw])) for draw in draws])
     turned = ([(v, np.roll(m, int(rng.integers(len(m))))) for v, m in songs] for _ in range(n))
     null = np.array([measure(each) for each in turned])  # marks at random places of each song
     observed = measure(songs)
@@ -130,7 +128,7 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
 
 def measure(songs: Sequence[Values]) -> np.ndarray:
     """Ratios of the quantiles at `POINTS`, then the Kolmogorov–Smirnov distance, in one."""
-    seam, other = _split(songs)
+    seam, other = split(songs)
     return np.append(_ratios(seam, other), distance(seam, other))
 
 
@@ -160,8 +158,8 @@ def jumps(songs: Sequence[Seamed]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for name in ("phase_step_min", "phase_step_max", "quaternion_dot_min", "position_step_max"):
         step, _, end = name.rpartition("_")
-        split = _split([(row[step], row["seam"]) for row in rows])
-        found[name] = [float(part.min() if end == "min" else part.max()) for part in split]
+        parts = split([(row[step], row["seam"]) for row in rows])
+        found[name] = [float(part.min() if end == "min" else part.max()) for part in parts]
     largest = (found["phase_step_max"], found["position_step_max"])
     found["none"] = (
         found["phase_step_min"][0] >= -1e-4
@@ -186,7 +184,7 @@ def _steps(song: Seamed) -> dict[str, np.ndarray]:
     }
 
 
-def _split(songs: Sequence[Values]) -> tuple[np.ndarray, np.ndarray]:
+def split(songs: Sequence[Values]) -> tuple[np.ndarray, np.ndarray]:
     """All values at seams, and all others."""
     return (
         np.concatenate([values[mask] for values, mask in songs]),

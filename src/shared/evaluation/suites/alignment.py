@@ -4,8 +4,7 @@ Letters: N motion beats, M music beats.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ import numpy as np
 from ...metrics import rhythm
 from ...motion.trajectory import FPS, MotionTrajectory
 from ..plots import new_figure, save_figure
-from ..samples import DanceSample, Moved
+from ..samples import Dance
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
 from ..tables import Grid, GridRow
 from .songs import Piece
@@ -24,7 +23,10 @@ HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
 
 
-def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[Grid]:
+Danced = tuple[Dance[Any], np.ndarray]  # a motion on its music, and the motion's beats, seconds
+
+
+def alignment_grids(found: Mapping[str, Sequence[Danced]], seed: int) -> list[Grid]:
     """`alignment_rows` of motions by name: their scores, and differences."""
     grids = []
     for name, dances in found.items():
@@ -40,24 +42,6 @@ def alignment_grids(found: Mapping[str, Sequence["Danced"]], seed: int) -> list[
     return grids
 
 
-@dataclass(frozen=True, eq=False)
-class Danced:
-    """Motion beats and the beats of the music they belong to, seconds; the song's name."""
-
-    song: str
-    motion: np.ndarray
-    music: np.ndarray
-    seconds: float
-
-
-def danced(
-    sample: DanceSample[Moved], name: str, find: Callable[[Moved], np.ndarray]
-) -> list[Danced]:
-    """The beats that `find` tells of each motion, with its music; kept under `name`."""
-    pairs = zip(sample.dances, sample.each(name, find), strict=True)
-    return [Danced(dance.song, beats, dance.beats, dance.seconds) for dance, beats in pairs]
-
-
 def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
     """A set of motions with their own music, and with what must score less.
 
@@ -68,15 +52,15 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         music_beats, without_beats.
     """
     scores: dict[str, list[rhythm.Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
-    for index, dance in enumerate(dances):
+    for index, each in enumerate(dances):
         rng = np.random.default_rng([seed, 2, index])
-        for name, score in song_scores(dance, dances, rng).items():
+        for name, score in song_scores(each, dances, rng).items():
             scores[name].append(score)
     values: dict[str, dict[str, np.ndarray]] = {name: {} for name in scores}
     for name, column in product(scores, rhythm.COLUMNS):
         values[name][column] = np.array([getattr(score, column) for score in scores[name]])
     rows = {
-        name: {column: bootstrap_mean(each).as_dict() for column, each in found.items()}
+        name: {column: bootstrap_mean(figures).as_dict() for column, figures in found.items()}
         for name, found in values.items()
     }
     own, above = rows["own song"], dict[str, dict[str, Any]]()
@@ -86,23 +70,24 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         above.setdefault(name, {})[column] = {**gain, "apart": apart}
     return {
         "songs": len(dances),
-        "motion_beats": _per_second([(dance.motion, dance.seconds) for dance in dances]),
-        "music_beats": _per_second([(dance.music, dance.seconds) for dance in dances]),
-        "without_beats": sum(len(dance.motion) == 0 for dance in dances),
+        "motion_beats": _per_second([(beats, dance.seconds) for dance, beats in dances]),
+        "music_beats": _per_second([(dance.beats, dance.seconds) for dance, _ in dances]),
+        "without_beats": sum(len(beats) == 0 for _, beats in dances),
         "rows": rows,
         "above": above,
     }
 
 
 def song_scores(
-    dance: Danced, dances: Sequence[Danced], rng: np.random.Generator
+    asked: Danced, dances: Sequence[Danced], rng: np.random.Generator
 ) -> dict[str, rhythm.Rhythm]:
     """One motion against its own song and everything else."""
-    own, chance, off = rhythm.against_chance(dance.motion, dance.music, dance.seconds, rng)
+    dance, beats = asked
+    own, chance, off = rhythm.against_chance(beats, dance.beats, dance.seconds, rng)
     scores = {"own song": own, "chance": chance, "half a beat later": off}
-    strangers = [other for other in dances if other.song != dance.song]
+    strangers = [other for other, _ in dances if other.song != dance.song]
     drawn = [strangers[k] for k in rng.permutation(len(strangers))[:OTHERS]]
-    theirs = [rhythm.rhythm(dance.motion, o.music, min(dance.seconds, o.seconds)) for o in drawn]
+    theirs = [rhythm.rhythm(beats, o.beats, min(dance.seconds, o.seconds)) for o in drawn]
     nothing = rhythm.Rhythm(*[math.nan] * len(rhythm.COLUMNS))
     return scores | {"another song": rhythm.mean_rhythm(theirs) if theirs else nothing}
 

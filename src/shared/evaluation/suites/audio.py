@@ -15,7 +15,6 @@ from functools import cached_property, partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
-from zlib import crc32
 
 import numpy as np
 
@@ -29,14 +28,14 @@ from ...metrics.sanity import frozen
 from ...metrics.seams import Seamed, marked, seam_report
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import FPS, MotionTrajectory
-from ...pipelines.song import SongGenerator, own_noise
+from ...pipelines.song import SongGenerator
 from ...pipelines.song_sampler import SPARE, SongSampling, spans
 from ..engine import Bench, Progress, Row, Suite, run_suite
 from ..families import AUDIO_FAMILIES, beats_of
 from ..manifest import Part, Parts, Sources, model_hashes, song_hashes
 from ..samples import Dance, DanceSample, Memo, Trajectories, untrained_audio_model
-from ..tables import Grid, GridRow, Report
-from .alignment import alignment_grids, danced, phase_row, plot_phase, right_tempo
+from ..tables import Grid, GridRow, Report, beside_null
+from .alignment import alignment_grids, phase_row, plot_phase, right_tempo
 from .songs import (
     TEMPI,
     Piece,
@@ -45,6 +44,7 @@ from .songs import (
     held_out_specs,
     open_split,
     phrases,
+    sung,
     tracks,
 )
 
@@ -103,15 +103,11 @@ class AudioContext:
     def dance(
         self, piece: Piece, *, replication: int = 0, held: bool = True, untrained: bool = False
     ) -> MotionTrajectory:
-        """A motion for a song, with noise of its own; not `held`, it counts the phase for itself.
-
-        With one noise for all, fifty songs would hold fifty times one walk.
-        """
+        """A motion for a song, by the model or by `fresh`; not `held`, it counts for itself."""
         settings = replace(self.sampled, seed=self.settings.seed)
-        settings = own_noise(settings, replication, crc32(piece.name.encode()))
         generator = self.fresh if untrained else self.generator
-        phase = piece.phase if held else None
-        return generator.generate(piece.condition, phase=phase, settings=settings)[0]
+        heard = piece if held else replace(piece, phase=None)
+        return sung(generator, heard, settings, replication)
 
     def made(self, replication: int, *, untrained: bool = False) -> Made:
         """A motion for each held-out song in a replication, by the model or by `fresh`."""
@@ -263,7 +259,7 @@ class AudioContext:
             samples["untrained"] = self.sample(0, untrained=True)
         if len(self.reference):
             samples["real"] = self.reference
-        found = {name: danced(sample, "beats", beats_of) for name, sample in samples.items()}
+        found = {name: sample.beside("beats", beats_of) for name, sample in samples.items()}
         return alignment_grids(found, self.settings.seed)
 
     def seams(self) -> list[Grid]:
@@ -337,11 +333,7 @@ def _seams(seams: dict[str, Any], row: str) -> Iterator[Grid]:
     end, of = (f"/{row}", f", {row}") if row else ("", "")
     rows = {}
     for name, found in seams["quantities"].items():
-        cells = {
-            key: f"{r['value']:.3f} [{r['low']:.3f}, {r['high']:.3f}]"
-            f" ({r['null_low']:.3f}–{r['null_high']:.3f})"
-            for key, r in (("p50", found["ratio_p50"]), ("p95", found["ratio_p95"]))
-        }
+        cells = {key: beside_null(found[f"ratio_{key}"], 3) for key in ("p50", "p95")}
         cells["medians"] = f"{found['seam_p50']:.3g} / {found['elsewhere_p50']:.3g}"
         cells["ks"] = f"{found['ks']['value']:.3f} (p {found['ks']['p']:.2f})"
         rows[f"{name.replace('_', ' ')}, {UNITS[name]}"] = GridRow(cells)

@@ -9,7 +9,7 @@ Letters: N motions of one cell.
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from itertools import chain
+from itertools import chain, cycle, islice
 
 from pydantic import TypeAdapter
 
@@ -58,10 +58,8 @@ def prompts_of(
 
 def _in_turn(choices: Sequence[Sequence[str]], num: int) -> list[str]:
     """`num` prompts: the label sets in turn, and the prompts of each in turn."""
-    sets = [prompts for prompts in choices if prompts]
-    if not sets:
-        return []
-    return [sets[i % len(sets)][(i // len(sets)) % len(sets[i % len(sets)])] for i in range(num)]
+    rounds = zip(*(cycle(prompts) for prompts in choices if prompts), strict=False)
+    return list(islice(chain.from_iterable(rounds), num))
 
 
 def plan_cells(

@@ -23,7 +23,7 @@ from ...formats.arrays import write_npz
 from ...memory.figures import FigureMemory
 from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import body_beats, limb_beats, rhythm
-from ...metrics.seams import ORDERS, body_quantities, compare, marked, starts
+from ...metrics.seams import ORDERS, body_quantities, compare, marked, split, starts
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
@@ -34,7 +34,7 @@ from ...pipelines.body import Performer, PerformerSettings
 from ...pipelines.choreography import Choreographer, Wish
 from ...pipelines.dance import candidate_seed
 from ...pipelines.figure_dance import FigureDancer
-from ...pipelines.song import SongCondition, SongGenerator, finished, own_noise
+from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
@@ -43,10 +43,10 @@ from ..families import DANCE_FAMILIES, MOMENTS
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained
 from ..stats import Estimate, bootstrap_columns
-from ..tables import Grid, GridRow, Report
-from .alignment import alignment_grids, danced
+from ..tables import Grid, GridRow, Report, beside_null
+from .alignment import alignment_grids
 from .editing import EditContext
-from .songs import Piece, captured_dances, held_out_songs, real_dances, tracks
+from .songs import Piece, captured_dances, held_out_songs, real_dances, sung, tracks
 
 PROMPTS = (
     "a person dances", "a proud person dances", "a young person dances to the music",
@@ -113,10 +113,8 @@ class DanceContext:
         """The path of a song in a replication, post-processed as it is pinned."""
 
         def make() -> MotionTrajectory:
-            piece, settings = self.pieces[number], SongSampling(seed=self.settings.seed)
-            settings = own_noise(settings, replication, crc32(piece.name.encode()))
-            (made,) = self.singer.generate(piece.condition, phase=piece.phase, settings=settings)
-            return finished(made)
+            settings = SongSampling(seed=self.settings.seed)
+            return finished(sung(self.singer, self.pieces[number], settings, replication))
 
         return self.memo.once(f"path {number} {replication}", make)
 
@@ -269,7 +267,7 @@ class DanceContext:
         found = {}
         for name, sample in groups.items():
             key = "limbs_" if name.startswith("limbs") else ""
-            found[name] = danced(sample, key + "beats", MOMENTS[key])
+            found[name] = sample.beside(key + "beats", MOMENTS[key])
         return alignment_grids(found, self.settings.seed)
 
     def seams(self) -> list[Grid]:
@@ -383,25 +381,24 @@ def seam_grid(
         name: float(np.percentile(np.concatenate([each[name] for each in sizes]), SEAM_TOP))
         for name in ORDERS
     }
-    found: dict[str, GridRow] = {}
+    found, counted = dict[str, GridRow](), dict[str, int]()
     for who, dances in rows.items():
-        marked = [(body_quantities(d.motion), d.seams) for d in dances
+        seamed = [(body_quantities(d.motion), d.seams) for d in dances
                   if d.seams is not None and d.seams.any()]  # fmt: skip
-        for name, limit in limits.items() if marked else ():
-            pairs = [(values[name], seams) for values, seams in marked]
-            found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(marked), 1)
-    if not found:
-        return []
-    number = sum(len(starts(seams)) for _, seams in marked)
-    return [Grid.of("body-seams", found, {"seams": number, "dances": len(marked)})]
+        if not counted:  # of the first, which the title tells of
+            number = sum(len(starts(seams)) for _, seams in seamed)
+            counted = {"seams": number, "dances": len(seamed)} if seamed else {}
+        for name, limit in limits.items() if seamed else ():
+            pairs = [(values[name], seams) for values, seams in seamed]
+            found[f"{name}: {who}"] = GridRow(_cells(pairs, limit, seed), len(seamed), 1)
+    return [Grid.of("body-seams", found, counted)] if found else []
 
 
 def _cells(
     pairs: Sequence[tuple[np.ndarray, np.ndarray]], limit: float, seed: int
 ) -> dict[str, Any]:
     """One row: quantiles, shares beyond the limit, and the ratio with its intervals."""
-    seam = np.concatenate([values[mask] for values, mask in pairs])
-    other = np.concatenate([values[~mask] for values, mask in pairs])
+    seam, other = split(pairs)
     ratio = compare(pairs, seed)["ratio_p50"]
     return {
         "seam": float(np.percentile(seam, SEAM_TOP)),
@@ -409,8 +406,7 @@ def _cells(
         "real": limit,
         "beyond_seam": 100 * float((seam > limit).mean()),
         "beyond_elsewhere": 100 * float((other > limit).mean()),
-        "ratio": f"{ratio['value']:.2f} [{ratio['low']:.2f}, {ratio['high']:.2f}]"
-        f" ({ratio['null_low']:.2f}–{ratio['null_high']:.2f})",
+        "ratio": beside_null(ratio, 2),
     }
 
 

@@ -42,7 +42,7 @@ ACTIONS = (
     "a person claps",
 )  # fmt: skip
 Edit = tuple[Motion, Motion, Given]  # what was made of a clip, the clip, and what was to stay
-Followed = tuple[Motion, np.ndarray, DrawnPath]  # with where the pelvis was to be [T,2]
+Followed = tuple[Motion, np.ndarray]  # with where the pelvis was to be [T,2]
 REDONE = {"left arm": "left-arm", "upper body": "upper-body", "a second": None}  # joint groups
 
 
@@ -159,21 +159,20 @@ class EditContext:
 
     def paths(self) -> list[Grid]:
         """A row a shape and a maker."""
-        rows = {}
-        number = self.settings.repeats
+        rows, number = dict[str, GridRow](), self.settings.repeats
         seeds = np.random.SeedSequence(self.settings.seed).generate_state(number).tolist()
         for shape, drawn in drawn_paths().items():
+            made = dict[str, list[Followed]]()
             for who, generator in self.generators.items():
                 self.progress(f"paths: {shape}, {who}")
-                made = [_follow(generator, drawn, seed) for seed in seeds]
-                rows[f"{shape}: {who}"] = _path_row(made)
-            still, free = [], []
-            for seed, (motion, points, _) in enumerate(made):
-                still.append((held_still(motion), points, drawn))
-                (alone,) = self.generator.generate([WALK], seconds=motion.seconds, seed=seed)
-                free.append((alone, points, drawn))
-            rows[f"{shape}: frozen pose"] = _path_row(still)
-            rows[f"{shape}: words alone"] = _path_row(free)
+                made[who] = [_follow(generator, drawn, seed) for seed in seeds]
+            own = made["generated"]
+            made["frozen pose"] = [(held_still(motion), points) for motion, points in own]
+            made["words alone"] = [
+                (self.generator.generate([WALK], seconds=motion.seconds, seed=seed)[0], points)
+                for seed, (motion, points) in enumerate(own)
+            ]
+            rows |= {f"{shape}: {who}": _path_row(each, drawn) for who, each in made.items()}
         return [Grid.of("paths", rows, {"num": number})]
 
     def transitions(self, judge: Evaluator) -> list[Grid]:
@@ -265,12 +264,12 @@ def _follow(generator: TextToMotion, drawn: DrawnPath, seed: int) -> Followed:
     motion = along_path(generator, Timeline((passage,)), drawn, settings).motion
     speed, facing, *_ = natural_gait(generator, passage, settings)
     path = time_path(drawn, fps=generator.card.fps, speed=speed, facing=facing)
-    return motion, path.points, drawn
+    return motion, path.points
 
 
-def _path_row(made: Sequence[Followed]) -> GridRow:
+def _path_row(made: Sequence[Followed], drawn: DrawnPath) -> GridRow:
     rows = []
-    for motion, points, drawn in made:
+    for motion, points in made:
         ground = motion.root_position[:, [0, 2]].astype(np.float64)
         frames = min(len(ground), len(points))
         apart = np.linalg.norm(ground[:frames] - points[:frames], axis=1)

@@ -30,9 +30,9 @@ from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
 from ..engine import Progress
 from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
-from ..samples import DanceSample
+from ..samples import DanceSample, rows_of_each
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
-from ..tables import Column, Grid, GridRow, plain, report_data
+from ..tables import Column, Grid, GridRow, described, plain, report_data
 from .songs import Piece, dance_of, held_out_songs, items, open_split, song_of
 
 WITHOUT, WITH, RANDOM = "without", "with", "random"
@@ -118,13 +118,7 @@ class Asker:
 Values = dict[str, np.ndarray]  # column -> one figure for each phrase or song [N]
 BATCH = 16
 LEVELS = ("low", "middle", "high")  # thirds of the diffusion's steps
-DENOISING = (
-    *(Column(level, f"{level} noise", 4, "low") for level in LEVELS),
-    Column("all", "all", 4, "low"),
-)
-CURVES = tuple(
-    Column(name, name, 4, better="low") for name in ("energy", "density", "tension", "stability")
-)
+DENOISING, CURVES = (described(kind)["columns"] for kind in ("denoising", "curves"))
 SONG_FAMILIES = (BEAT_ALIGNMENT, TRAJECTORY_SANITY)
 RHYTHM = ("motion_to_music", "music_to_motion", "f", "f_above_turned")
 SONGS = (
@@ -375,8 +369,7 @@ def evaluate_memory(
 
 def over_songs(values: Values, clusters: Sequence[str]) -> Values:
     """Figures [N] -> the mean of each song [S]: phrases of a song are not independent."""
-    names = sorted(set(clusters))
-    rows = [[n for n, name in enumerate(clusters) if name == song] for song in names]
+    rows = [rows for _, rows in sorted(rows_of_each(clusters).items())]
     return {key: np.array([each[row].mean() for row in rows]) for key, each in values.items()}
 
 

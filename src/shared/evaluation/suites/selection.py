@@ -22,7 +22,6 @@ import numpy as np
 
 from ...errors import UserError
 from ...metrics import kinetic
-from ...metrics.physical import physics, travel, travel_error
 from ...metrics.retrieval import BATCH, TOP, in_batches
 from ...metrics.rhythm import against_chance, motion_beats, rhythm
 from ...metrics.sanity import Bands
@@ -31,12 +30,12 @@ from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
 from ...pipelines.motion_generator import PromptSampler
 from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
-from ...pipelines.song import AudioCondition, SongGenerator
+from ...pipelines.song import AudioCondition, SongGenerator, own_noise
 from ...pipelines.song_sampler import SongSampling
-from ..actions import check
-from ..engine import Progress
+from ..engine import Progress, Value
 from ..evaluator import Evaluator
-from ..samples import Clips, open_held_out, real_clips
+from ..families import OBEDIENCE, PHYSICS, TRAVEL
+from ..samples import Clips, MotionSample, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated
 from ..tables import Column, Grid, GridRow, Report, report_data
 from .songs import Piece, held_out_songs, open_split, phrases
@@ -69,19 +68,16 @@ class Pool:
     score: np.ndarray  # the judge's, [P,C]
     # figures of single candidates [P,C]; NaN where nothing is asked
     values: Mapping[str, np.ndarray]
-    # figures [P] of each subject that depend on what was chosen for the others
-    together: Callable[[Chosen], Mapping[str, np.ndarray]] = lambda chosen: {}
-    of_set: Callable[[Chosen], Mapping[str, float]] = lambda chosen: {}  # figures of a whole choice
-    # rows to stand beside, by name: figures [P'] by key
-    floors: Mapping[str, Mapping[str, np.ndarray]] = field(default_factory=dict)
-    # figures of such rows that belong to whole sets
-    set_floors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    # figures that depend on what was chosen for the others: [P] of each subject, or one of all
+    together: Callable[[Chosen], Mapping[str, Value]] = lambda chosen: {}
+    # rows to stand beside, by name: figures [P'] by key, or one of a whole set
+    floors: Mapping[str, Mapping[str, Value]] = field(default_factory=dict)
 
-    def single(self, chosen: Chosen) -> dict[str, np.ndarray]:
-        """Figures [P] of each subject under one choice."""
+    def under(self, chosen: Chosen) -> dict[str, Value]:
+        """Every figure under one choice: [P] of each subject, or one of all."""
         rows = np.arange(len(self.score))
         found = {key: values[rows, chosen] for key, values in self.values.items()}
-        return found | dict(self.together(chosen))
+        return {**found, **self.together(chosen)}
 
 
 def sizes(largest: int) -> list[int]:
@@ -100,12 +96,11 @@ def measured(
     pool: Pool, chosen: Sequence[Chosen]
 ) -> tuple[dict[str, np.ndarray], dict[str, Estimate]]:
     """Figures [P] of each subject, the mean over the choices, and of each choice as a whole."""
-    found = [pool.single(choice) for choice in chosen]
-    stacked = {key: np.stack([one[key] for one in found]) for key in found[0]}  # G P
-    whole = {key: [_mean(row) for row in values] for key, values in stacked.items()}
-    sets = [pool.of_set(choice) for choice in chosen]
-    whole |= {key: [one[key] for one in sets] for key in sets[0]}
-    subjects = {key: np.array([_mean(c) for c in values.T]) for key, values in stacked.items()}
+    found = [pool.under(choice) for choice in chosen]
+    figures = {key: np.stack([one[key] for one in found]) for key in found[0]}  # G P, or G
+    single = {key: values for key, values in figures.items() if values.ndim == 2}
+    subjects = {key: np.array([_mean(c) for c in values.T]) for key, values in single.items()}
+    whole = {key: [_mean(choice) for choice in values] for key, values in figures.items()}
     return subjects, {key: replicated(values) for key, values in whole.items()}
 
 
@@ -127,9 +122,10 @@ def selection_report(pool: Pool, largest: int) -> Report:
     """
     rows: dict[str, dict[str, Any]] = {}
     for name, floor in pool.floors.items():
-        known = {key: bootstrap_mean(values) for key, values in floor.items()}
-        known |= {k: Estimate(v, v, v, 1) for k, v in pool.set_floors.get(name, {}).items()}
-        rows[name] = {key: estimate.as_dict() for key, estimate in known.items()}
+        rows[name] = {
+            key: (bootstrap_mean(v) if isinstance(v, np.ndarray) else replicated([v])).as_dict()
+            for key, v in floor.items()
+        }
     taken = {f"best of {size}": choices(pool.score, size) for size in sizes(largest)}
     taken[f"worst of {largest}"] = choices(-pool.score, largest)
     found = {name: measured(pool, chosen) for name, chosen in taken.items()}
@@ -258,53 +254,46 @@ def prompt_pool(
             tables.append(result.table)
     progress("measuring")
     terms = {name: np.stack([table.terms[name] for table in tables]) for name in tables[0].terms}
-    embedded = evaluator.embed_motion([motion for row in made for motion in row]).numpy()
-    embedded = embedded.reshape(len(clips), num_candidates, -1)
-    text = evaluator.embed_text(clips.captions).numpy()
-    order, rows = np.random.default_rng(seed).permutation(len(clips)), np.arange(len(clips))
-    kept, sampled = evaluator.embed_motion(clips.motions).numpy(), [made[p][0] for p in order]
-    sets = {"real": (kept, clips.motions), "chance": (embedded[order, 0], sampled)}
-    floors: dict[str, dict[str, np.ndarray]] = {}
-    for name, (own, motions) in sets.items():
-        single = _singles([[motion] for motion in motions], clips, text, own[:, None])
-        floors[name] = {key: values[:, 0] for key, values in single.items()}
-        floors[name] |= _retrieval(text, own, clips, seed)
+    text, rows = evaluator.embed_text(clips.captions).numpy(), np.arange(len(clips))
+    prompt, bodies = rows.repeat(num_candidates), [motion for row in made for motion in row]
+    embedded = evaluator.embed_motion(bodies).numpy()
+    candidates = replace(clips.rows(prompt.tolist()), motions=bodies)
+    sample = MotionSample.of(candidates, text[prompt], embedded, prompt)
+    real = MotionSample.of(clips, text, evaluator.embed_motion(clips.motions).numpy(), rows)
+    order = np.random.default_rng(seed).permutation(len(clips)).tolist()
+    chance = sample.rows(range(0, len(sample), num_candidates)).reordered(order)
+    floors = {
+        name: _singles(each, real) | _retrieval(text, each.motion, clips, seed)
+        for name, each in (("real", real), ("chance", chance))
+    }
     for key in ("speed_error", "turn_error"):
         del floors["real"][key]  # a clip has no travel error against itself
+    shape = len(clips), num_candidates
+    single = {key: values.reshape(shape) for key, values in _singles(sample, real).items()}
+    places = embedded.reshape(*shape, -1)
     return Pool(
         figures=[*FIGURES, *(Figure(name, name, 3, True, "judge") for name in terms)],
         score=np.stack([table.score for table in tables]),
-        values=_singles(made, clips, text, embedded) | terms,
-        together=lambda chosen: _retrieval(text, embedded[rows, chosen], clips, seed),
+        values=single | terms,
+        together=lambda chosen: _retrieval(text, places[rows, chosen], clips, seed),
         floors=floors,
     )
 
 
-def _singles(
-    made: Sequence[Sequence[Motion]], clips: Clips, text: np.ndarray, embedded: np.ndarray
-) -> dict[str, np.ndarray]:
-    """Figures [P,C] of each candidate by itself."""
-    rows = []
-    for motions, labels, real in zip(made, clips.labels, clips.motions, strict=True):
-        bodies, answers = [physics(m) for m in motions], [check(labels, m) for m in motions]
-        errors = travel_error([travel(m) for m in motions], [travel(real)] * len(motions))
-        rows.append(
-            {
-                "obeys": [all(each.values()) if each else float("nan") for each in answers],
-                "speed_error": errors["speed"],
-                "turn_error": errors["turn"],
-                "support_slide": [body["support_slide"] for body in bodies],
-                "hand_jerk": [body["hand_jerk"] for body in bodies],
-            }
-        )
-    found = {key: np.array([row[key] for row in rows], dtype=np.float64) for key in rows[0]}
-    apart = np.linalg.norm(embedded.astype(np.float64) - text[:, None], axis=-1)
-    return found | {"matching_distance": apart}
+def _singles(sample: MotionSample, real: MotionSample) -> dict[str, np.ndarray]:
+    """Figures [N] of each motion by itself, as the text suite's families have them."""
+    apart = np.linalg.norm(sample.text.astype(np.float64) - sample.motion, axis=1)
+    found: dict[str, Value] = {"matching_distance": apart}
+    for family in (OBEDIENCE, TRAVEL, PHYSICS):
+        found |= family.compute(sample, real, seed=0)
+    keys = "speed_error", "turn_error", "support_slide", "hand_jerk", "matching_distance"
+    names = {"obeys": "obeys_all", **dict(zip(keys, keys, strict=True))}
+    return {name: np.asarray(found[key]) for name, key in names.items()}
 
 
 def _retrieval(
     text: np.ndarray, motion: np.ndarray, clips: Clips, seed: int
-) -> Mapping[str, np.ndarray]:
+) -> dict[str, np.ndarray]:
     """Each prompt's R-precision [P] at 1 and 3, the mean over random batches of 32.
 
     Motions of the same label group or caption are hits, as in `guo_retrieval`.
@@ -422,8 +411,7 @@ def song_pool(
     for number, piece in enumerate(pieces, start=1):
         progress(f"candidates for song {number} of {len(pieces)}")
         # Noise of each song's own: one noise for all would make a replication one draw, not P.
-        noise = int(np.random.SeedSequence((settings.seed, number)).generate_state(1)[0])
-        own = replace(settings, seed=noise)
+        own = own_noise(settings, number)
         made.append(generator.generate(piece.condition, phase=piece.phase, settings=own))
         heard = AudioCondition(piece.condition).time()
         tables.append(judge.judge(made[-1], None if heard is None else heard[1]))
@@ -446,16 +434,15 @@ def song_pool(
     size = min(len(pieces), len(real) // 2)  # as many real motions as songs, from the others
     halves = ([known[at] for at in part] for part in (order[:size], order[size:]))
 
-    def of_set(chosen: Chosen) -> dict[str, float]:
+    def together(chosen: Chosen) -> dict[str, float]:
         """Of one candidate of each song, side by side."""
         return _distances([song[at] for song, at in zip(ours, chosen, strict=True)], known)
 
     return replace(
         pool,
         figures=[*DISTANCES, *figures],
-        of_set=of_set,
-        floors={"real": {}, **pool.floors},
-        set_floors={"real": _distances(*halves)},
+        together=together,
+        floors={"real": _distances(*halves), **pool.floors},
     )
 
 

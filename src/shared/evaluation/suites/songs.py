@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 from torch import Tensor
@@ -27,7 +28,8 @@ from ...model.audio.conditioning import BEAT, CONDITION_ROWS
 from ...motion.features import decode_features
 from ...motion.motion import Motion, resample_motion
 from ...motion.trajectory import FPS, MotionTrajectory, place_window
-from ...pipelines.song import SongCondition, song_condition
+from ...pipelines.song import SongCondition, SongGenerator, own_noise, song_condition
+from ...pipelines.song_sampler import SongSampling
 from ..samples import Dance
 
 FRESH_SEED = 90210  # of songs made only to test: no training draws from the held-out tempi
@@ -66,6 +68,14 @@ class Piece:
 def dance_of(piece: Piece, motion: MotionTrajectory) -> Dance[MotionTrajectory]:
     """A motion held against the song that it was made for."""
     return Dance(piece.name, motion, piece.beats, piece.bars, piece.true_meter, piece.meter)
+
+
+def sung(
+    generator: SongGenerator[Any], piece: Piece, settings: SongSampling, replication: int
+) -> MotionTrajectory:
+    """A motion with noise of the song's own: of one noise for all, fifty songs get one walk."""
+    own = own_noise(settings, replication, crc32(piece.name.encode()))
+    return generator.generate(piece.condition, phase=piece.phase, settings=own)[0]
 
 
 def held_out_specs(number: int, seconds: float, seed: int) -> list[SongSpec]:

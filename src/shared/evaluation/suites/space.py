@@ -26,6 +26,7 @@ from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
+from ..evaluator import padded
 from ..samples import rows_of_each, untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
 from ..tables import Grid, GridRow, Report, report_data
@@ -96,7 +97,8 @@ class Windows:
 
     def sounds(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
         """Conditions [B,167,T] of windows, padded with zeros, and their mask [B,T]."""
-        return padded([torch.from_numpy(self.items[i].audio.T) for i in index], time_first=False)
+        values, mask = padded([torch.from_numpy(self.items[i].audio.T) for i in index])
+        return values.transpose(1, 2), mask
 
     def bodies(self, index: Sequence[int]) -> tuple[Tensor, Tensor]:
         """Raw features [B,T,23,6] of windows, padded with zeros, and their mask [B,T]."""
@@ -146,14 +148,6 @@ def stretched(
     moved[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] *= rate
     phase = phase[before] * (1 - part) + phase[before + 1] * part
     return audio, phase, moved.astype(np.float16)
-
-
-def padded(parts: Sequence[Tensor], *, time_first: bool = True) -> tuple[Tensor, Tensor]:
-    """[T,...] each -> [B,T,...] with zeros at the ends and mask [B,T]; or [B,C,T] of [T,C]."""
-    lengths = torch.tensor([len(part) for part in parts])
-    values = torch.nn.utils.rnn.pad_sequence(list(parts), batch_first=True)
-    mask = torch.arange(values.shape[1]) < lengths[:, None]
-    return values if time_first else values.transpose(1, 2), mask
 
 
 def related(records: Sequence[PhraseRecord]) -> np.ndarray:
@@ -315,20 +309,12 @@ class SpaceSettings:
     seed: int = 0
 
 
-@dataclass(frozen=True)
-class Texts:
-    """A text tower with its tokenizer."""
-
-    tower: TextTower
-    tokenizer: PromptTokenizer
-
-
 def evaluate_space(
     space: SharedSpace,
     data: str,
     *,
     split: str = "test",
-    texts: Texts | None = None,
+    texts: tuple[TextTower, PromptTokenizer] | None = None,
     settings: SpaceSettings | None = None,
     about: dict[str, str] | None = None,
     progress: Progress = lambda text: None,
@@ -368,7 +354,7 @@ def evaluate_space(
     if texts is not None and not all(captions):
         progress("phrases without captions: texts are left out")
     elif texts is not None:
-        spoken = space.embed_text(captions, texts.tower, texts.tokenizer)
+        spoken = space.embed_text(captions, *texts)
         blind = held_out.embed_bodies(untrained_motion_tower(space, settings.seed))
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [

@@ -2,7 +2,15 @@
 
 import numpy as np
 
+from src.shared.evaluation.samples import Dance
 from src.shared.evaluation.suites.alignment import HELD_AGAINST, Danced, alignment_rows
+from src.shared.motion.trajectory import MotionTrajectory
+
+
+def danced(song: str, motion: np.ndarray, music: np.ndarray) -> Danced:
+    """Sixteen seconds of a song."""
+    still = MotionTrajectory(np.zeros((480, 25), np.float32))
+    return Dance(song, still, music), motion
 
 
 def dances(kind: str, number: int = 30) -> list[Danced]:
@@ -17,7 +25,7 @@ def dances(kind: str, number: int = 30) -> list[Danced]:
             "anywhere": np.sort(rng.uniform(0, 60 * period, 60)),
             "never": np.zeros(0),
         }[kind]
-        made.append(Danced(f"song-{index}", motion, music[music < 18], 16.0))
+        made.append(danced(f"song-{index}", motion, music[music < 18]))
     return made
 
 
@@ -53,11 +61,11 @@ def test_standing_still_scores_nothing_but_counts() -> None:
 
 
 def test_phrases_of_one_song_are_no_other_song() -> None:
-    one = [Danced("same", d.motion, d.music, d.seconds) for d in dances("on", 4)]
+    one = [danced("same", beats, dance.beats) for dance, beats in dances("on", 4)]
     assert alignment_rows(one, seed=0)["rows"]["another song"]["f"]["count"] == 0
 
 
 def test_beats_are_counted_a_second() -> None:
     music = np.arange(0, 20, 0.5)
-    report = alignment_rows([Danced("a", music[::2], music, 16.0)], seed=0)
+    report = alignment_rows([danced("a", music[::2], music)], seed=0)
     assert (report["motion_beats"], report["music_beats"]) == (1.0, 2.0)

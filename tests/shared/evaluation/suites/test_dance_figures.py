@@ -135,6 +135,8 @@ def test_a_hard_cut_is_seen_and_a_smooth_dance_is_not() -> None:
     assert grid.value(f"{JERK}: cut", "seam") > 5 * grid.value(f"{JERK}: own", "seam")
     lone = [replace_seams(dance) for dance in dances]
     assert seam_grid({"own": lone}, [dances[0].motion], 0) == []
+    (beside,) = seam_grid({"own": dances, "lone": lone}, [dances[0].motion], 0)
+    assert beside.title == grid.title, "the row without seams is not what the title counts"
 
 
 def replace_seams(dance: Dance) -> Dance:

@@ -15,6 +15,7 @@ from src.shared.errors import UserError
 from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.samples import HeldOut
+from src.shared.evaluation.suites import editing
 from src.shared.evaluation.suites.dance import (
     PROMPTS,
     DanceContext,
@@ -27,6 +28,7 @@ from src.shared.evaluation.tables import Grid, grids, markdown
 from src.shared.formats.arrays import write_npz
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
+from src.shared.pipelines.path import DrawnPath
 from src.shared.pipelines.song import SongGenerator
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs
@@ -136,6 +138,21 @@ def test_paths_are_kept_to_by_whoever_is_carried(found: dict[str, Grid]) -> None
         assert paths.value(f"{shape}: generated", "mean") < 0.5
         assert paths.value(f"{shape}: frozen pose", "mean") > 50
         assert paths.value(f"{shape}: frozen pose", "limb_speed") == 0
+
+
+def test_floors_of_paths_are_the_models_whoever_else_is_measured(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    short = DrawnPath(np.array([[0.0, 0.0], [0.0, 0.5]]))
+    monkeypatch.setattr(editing, "drawn_paths", lambda: {"short": short})
+    prepare([SyntheticSource(12, seed=1)], tmp_path)
+    data = PreparedData.open(str(tmp_path))
+    held_out, generator = HeldOut(data, {"seen": data.records()}, "tiny"), tiny_generator()
+    with_others, alone = (
+        EditContext(generator, held_out, EditSettings(num=2, repeats=1, untrained=number)).paths()
+        for number in (1, 0)
+    )
+    assert {name: with_others[0].rows[name] for name in alone[0].rows} == alone[0].rows
 
 
 def test_tables_with_rows_of_their_own(found: dict[str, Grid]) -> None:

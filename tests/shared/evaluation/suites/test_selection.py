@@ -83,10 +83,11 @@ def test_figures_of_a_set_are_replicated() -> None:
         [Figure("mean", "mean", 3, True, "outside")],
         made.score,
         {},
-        of_set=lambda chosen: {"mean": float(quality[rows, chosen].mean())},
-        together=lambda chosen: {"same": quality[rows, chosen]},
-        set_floors={"real": {"mean": 3.0}},
-        floors={"real": {}},
+        together=lambda chosen: {
+            "mean": float(quality[rows, chosen].mean()),
+            "same": quality[rows, chosen],
+        },
+        floors={"real": {"mean": 3.0}},
     )
     report = selection_report(made, N)
     cell, same = (report["rows"]["best of 8"][key] for key in ("mean", "same"))

@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
+from src.shared.evaluation.evaluator import padded
 from src.shared.evaluation.samples import untrained_audio_tower
 from src.shared.evaluation.suites.space import (
     CHANCE,
@@ -16,11 +17,9 @@ from src.shared.evaluation.suites.space import (
     UNTRAINED,
     Bench,
     SpaceSettings,
-    Texts,
     Windows,
     evaluate_space,
     in_common,
-    padded,
     related,
     tempo_alone,
 )
@@ -151,7 +150,7 @@ def test_the_untrained_row_depends_on_the_seed_alone() -> None:
 
 def test_the_report_has_every_row_and_repeats(folder: Path) -> None:
     bundle = tiny_bundle()
-    texts = Texts(bundle.clip.text, bundle.tokenizer)
+    texts = bundle.clip.text, bundle.tokenizer
     settings = SpaceSettings(**CUTS, batch=8, replications=2)
     made = evaluate_space(tiny_space(), str(folder), texts=texts, settings=settings)
     silent = evaluate_space(tiny_space(), str(folder), settings=settings)
