@@ -244,7 +244,8 @@ def held(features: Tensor, frames: int, fps: float) -> Constraint:
     turning = np.pi / max(stays, round(SWAY_SECONDS / 2 * fps))
     way = there + stays * (1 - np.cos(turning * (time - there))) / 2
     given = Constraint.free(frames)
-    given.values[:] = features[np.where(time < there, time, np.round(way)).clip(max=len(away) - 1)]
+    frame = np.where(time < there, time, np.round(way)).clip(max=len(away) - 1)
+    given.values[:] = features[frame.astype(int)]
     given.values[:, ROOT_ROW, GROUND] = 0.0
     given.known[there:] = True
     return given

@@ -45,6 +45,7 @@ class Reading(NamedTuple):
 
 
 Read = Callable[[str], Reading]
+GOT_UP = Reading("stand", 1.0)  # as surely as an action is known
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -102,19 +103,23 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
     one clause, with what the arms do meanwhile.
     """
-    text, found = _plain(tidied(sentence)), list[Clause]()
-    for whole in _ordered(text, read):
-        pieces = _joined(whole, read)
+    text, found, words = _plain(tidied(sentence)), list[Clause](), all_words()
+
+    def known(text: str) -> Reading:
+        return GOT_UP if words.ups.match(text) else read(text)
+
+    for whole in _ordered(text, known):
+        pieces = _joined(whole, known)
         last = found[-1] if found else None
         while pieces:
             first, *others = pieces
-            pair = _at_once(first, others[0], read) if others else None
-            clause = pair or _parted(first, read) or _measured(first)
-            found += _held(_as_before(last, clause) if last else clause, first, read)
+            pair = _at_once(first, others[0], known) if others else None
+            clause = pair or _parted(first, known) or _measured(first)
+            found += _held(_as_before(last, clause) if last else clause, first, known)
             last = None
             pieces = others[1:] if pair else others
     found = [clause for clause in found if clause.text] or [Clause(sentence)]
-    words, first = all_words(), found[0].text
+    first = found[0].text
     if words.downs.search(first) or words.ups.search(first):
         before = STANDS if words.downs.search(first) else SITS
         found.insert(0, Clause(before, seconds=BEFORE))

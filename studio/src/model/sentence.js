@@ -4,6 +4,7 @@
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const ARROW = " → ", STANDS = "stands still", SITS = "sits", BEFORE = 0.8, SQUATS = "squats down", HELD = "\u23f8", HALT = 2.5, ABOUT = 180;
 export const GOING = ["walk", "run", "crouch-walk"];
+const GOT_UP = { action: "stand", certainty: 1, arms: false };
 const UNHELD = [...GOING, "jump"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
@@ -51,7 +52,7 @@ export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
   constructor({ patterns, ...words }, read) {
-    Object.assign(this, words, { read });
+    Object.assign(this, words, { read: (text) => (this.first.ups.test(text) ? GOT_UP : read(text)) });
     this.first = {}; this.each = {}; this.head = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
