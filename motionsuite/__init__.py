@@ -4,6 +4,7 @@
     [wave] = ms.load("starter").generate("a person waves")
     ms.save(wave, "wave.bvh")
 
+What a user can mend is raised as `UserError`, of which `UsageError` is one.
 Every name is imported when it is first used. In a wheel the code lies in `motionsuite.src`; in a
 checkout it lies beside this folder, where `python -m src.cli.tools` finds it, too.
 """
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from .src.shared.audio.song import Song
     from .src.shared.data.prepare import prepare
     from .src.shared.data.retarget.read_motion import read_motion
+    from .src.shared.errors import UsageError, UserError
     from .src.shared.formats.registry import write_motion as save
     from .src.shared.model.checkpoint import list_models as models
     from .src.shared.model.diffusion import Sampling
@@ -34,6 +36,8 @@ __all__ = [
     "Sampling",
     "Song",
     "Trajectory",
+    "UsageError",
+    "UserError",
     "continue_clips",
     "edit_clip",
     "load",
@@ -52,6 +56,8 @@ _PLACES = {
     "Sampling": "shared.model.diffusion",
     "Song": "shared.audio.song",
     "Trajectory": "shared.motion.trajectory:MotionTrajectory",
+    "UsageError": "shared.errors",
+    "UserError": "shared.errors",
     "continue_clips": "shared.pipelines.edit",
     "edit_clip": "shared.pipelines.edit",
     "load": "shared.pipelines.motion_generator",

@@ -8,12 +8,19 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import motionsuite
 from src.shared.errors import UsageError
 
 ROOT = Path(__file__).parents[1]
+STILL = motionsuite.Motion(
+    quaternions=np.tile(np.float32([1, 0, 0, 0]), (4, 22, 1)),
+    root_position=np.zeros((4, 3), np.float32),
+    contacts=np.zeros((4, 2), np.float32),
+    fps=30.0,
+)
 FOREIGN = "MINE = 1\n"
 READ = "import src, motionsuite as ms; print(src.MINE, ms.Motion.__module__, len(ms.models()) > 2)"
 
@@ -87,6 +94,31 @@ def test_mistakes_are_named_before_the_work(
 ) -> None:
     with pytest.raises(UsageError, match=line):
         motionsuite.load("starter").generate(prompts, **options)
+
+
+@pytest.mark.parametrize(
+    ("motion", "line"),
+    [
+        (np.zeros((4, 22, 3)), "motion is ndarray; give one Motion"),
+        ([STILL, STILL], "motion is 2 motions; give one Motion.*each a file of its own"),
+        (None, "motion is NoneType"),
+    ],
+)
+def test_what_is_not_one_motion_is_not_saved(motion: Any, line: str, tmp_path: Path) -> None:
+    with pytest.raises(motionsuite.UsageError, match=line):
+        motionsuite.save(motion, tmp_path / "a.bvh")
+    assert not list(tmp_path.iterdir())
+
+
+def test_samples_are_not_taken_for_a_song() -> None:
+    with pytest.raises(motionsuite.UserError, match="audio is a ndarray; give a sound file"):
+        motionsuite.load("starter").dance(np.zeros(22050))  # type: ignore[arg-type]
+
+
+def test_what_a_user_can_mend_has_a_public_name() -> None:
+    assert motionsuite.UsageError is UsageError
+    assert issubclass(motionsuite.UsageError, motionsuite.UserError)
+    assert len(motionsuite.__all__) == 17, "a name more is a promise more: weigh it"
 
 
 @pytest.mark.parametrize(

@@ -142,6 +142,9 @@ def print_summary(report: dict[str, Any], out: Place) -> None:
         for entry in skipped[:3]:
             tell(f"  {entry['clip']}: {entry['reason']}")
     print(f"next: motion-tools train clip --data {out} --output runs/clip")
+    if len(actions := report["actions"]) == 1 and actions[0]:
+        teach = f"motion-tools train action --data {out} --init starter --output runs/action"
+        print(f"  or, to teach {actions[0]!r} to the model that ships: {teach}")
 
 
 def prepare_audio(

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from src.cli.prepare import print_summary
 from src.cli.tools import app
 from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.formats.writers.bvh import write_bvh
@@ -34,6 +35,17 @@ def test_addresses_are_read_and_written(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.output
     assert "next: motion-tools train clip --data memory://prepared" in result.stdout
     assert (place("memory://prepared") / "manifest.json").is_file()
+
+
+@pytest.mark.parametrize(("actions", "taught"), [(["kata"], True), (["", "kata"], False)])
+def test_clips_of_one_action_may_be_taught_to_what_ships(
+    actions: list[str], taught: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report = {"clips": 2, "seconds": 60.0, "groups": 1, "by_source": {}, "by_split": {}}
+    print_summary(report | {"skipped": [], "actions": actions}, Path("data/kata"))
+    told = capsys.readouterr().out
+    assert "next: motion-tools train clip --data data/kata" in told
+    assert ("train action --data data/kata --init starter" in told) is taught
 
 
 @pytest.mark.parametrize(

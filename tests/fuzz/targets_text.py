@@ -63,7 +63,7 @@ def _read_captions(path: Path) -> None:
     rows = read_captions(path)
     pieces = [piece for row in rows.values() for piece in row]
     assert all(isinstance(t, str) for p in pieces for ts in p.captions.values() for t in ts)
-    match_captions(rows, [("set", ["walk_01.bvh", "a/walk_02.bvh"])], [path])
+    match_captions(rows, [("set", ["walk_01.bvh", "a/walk_02.bvh"])])
 
 
 YAML_WORDS = (

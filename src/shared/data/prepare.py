@@ -83,6 +83,7 @@ def prepare(
     sources: str | Path | Sequence[Source | str | Path],
     out: str | Place,
     *,
+    captions: str | Path | Sequence[str | Path] = (),
     templates: Path | None = None,
     only_gaps: bool = False,
     mirror: bool = True,
@@ -95,6 +96,7 @@ def prepare(
 
     Args:
         sources: `MotionFolder`s and the like; folders and files of motion are opened as such.
+        captions: tables of what those folders and files show (`read_captions`), one or several.
         templates: caption templates of the user's own (see src/configs/captions).
         only_gaps: keep procedural clips only of what no captured clip shows (`fill_gaps`).
         mirror: add the mirror image of each clip, with left and right swapped in its captions.
@@ -104,13 +106,10 @@ def prepare(
 
     Raises:
         UserError: a source or table is faulty, or no clip at all could be read.
-        UsageError: two sources have one name.
+        UsageError: two sources have one name, or captions are of no folder or file.
     """
     book = CaptionBook.load(templates)
-    sources = tuple(
-        MotionFolder.open(place(source)) if isinstance(source, str | Path) else source
-        for source in ([sources] if isinstance(sources, str | Path) else sources)
-    )
+    sources = _opened([sources] if isinstance(sources, str | Path) else sources, captions)
     out = place(out)
     for name, number in Counter(source.name for source in sources).items():
         if number > 1:
@@ -146,19 +145,34 @@ def prepare(
     return report
 
 
+def _opened(
+    sources: Sequence[Source | str | Path], captions: str | Path | Sequence[str | Path]
+) -> tuple[Source, ...]:
+    """The sources, folders and files opened together under the captions."""
+    tables = [Path(each) for each in ([captions] if isinstance(captions, str | Path) else captions)]
+    roots = [place(source) for source in sources if isinstance(source, str | Path)]
+    if tables and not roots:
+        raise UsageError(
+            f"captions {tables[0]} without a folder or file that they are of; name it among the"
+            " sources, or give them to MotionFolder.open_all"
+        )
+    folders = iter(MotionFolder.open_all(roots, captions=tables) if roots else ())
+    return tuple(next(folders) if isinstance(source, str | Path) else source for source in sources)
+
+
 def _check_languages(sources: tuple[Source, ...], book: CaptionBook) -> None:
     """Mirrored captions need a table of the language's left and right."""
     for source in sources:
         if not isinstance(source, MotionFolder):
             continue
         pieces = [piece for pieces in source.table.values() for piece in pieces]
-        for language in sorted({code for piece in pieces for code in piece.captions}):
+        for piece, language in ((each, code) for each in pieces for code in each.captions):
             if language not in book.languages:
-                tables = ", ".join(map(str, source.captions_files))
                 raise UserError(
-                    f"captions {tables}: no mirror table for language {language!r};"
-                    f" correct it (known: {', '.join(book.languages)}), add a caption file by"
-                    " --templates, or give --no-mirror"
+                    f"{piece.told.get(language, 'captions')}: no mirror table for language"
+                    f" {language!r}; correct it (known: {', '.join(book.languages)}), add a caption"
+                    " file of it by `templates` (--templates), or prepare without mirror images:"
+                    " `mirror=False` (--no-mirror)"
                 )
 
 
@@ -382,6 +396,7 @@ def _report(records: list[ClipRecord], skipped: list[dict[str, str]]) -> dict[st
         "seconds": round(sum(record.num_frames for record in originals) / 30.0, 1),
         "groups": len({record.group for record in records}),
         "by_provenance": dict(Counter(record.provenance for record in originals)),
+        "actions": sorted({record.tag for record in originals}),
         "by_source": dict(Counter(record.source for record in originals)),
         "by_split": {split: sum(r.split == split for r in records) for split in SPLITS},
         "held_back_groups": sorted({r.group for r in records if r.split == "test_unseen"}),

@@ -140,7 +140,6 @@ class MotionFolder:
         from_names: files without words of their own have those of their names as English captions.
         shared_stems: file names that several folders hold; their takes are told apart by folder.
         listed: the files, where they are known.
-        captions_files: where the captions come from.
         reading: what the files do not say of themselves.
         caption_rows: clips that the file names, and whether a file was found for each.
     """
@@ -154,7 +153,6 @@ class MotionFolder:
     shared_stems: tuple[str, ...] = ()
     from_names: bool = False
     listed: tuple[str, ...] | None = None
-    captions_files: tuple[Path, ...] = field(default=(), repr=False)
     caption_rows: Mapping[str, bool] = field(default_factory=dict, repr=False)
 
     @classmethod
@@ -192,14 +190,13 @@ class MotionFolder:
                                 f" {', '.join(FOLDER_ENDINGS)} files")  # fmt: skip
         rows = read_captions(*captions)
         listed = [(folder._captioned_as, folder.files()) for folder in plain]
-        matched, found = match_captions(rows, listed, captions)
+        matched, found = match_captions(rows, listed)
         return [
             replace(
                 folder,
                 table=own,
                 from_names=not own,
                 shared_stems=_repeated(Path(item).stem for item in items),
-                captions_files=tuple(captions),
                 caption_rows=found,
             )
             for folder, own, (_, items) in zip(plain, matched, listed, strict=True)
@@ -323,7 +320,7 @@ class MotionFolder:
             if path.suffix.lower() == ".bvh":
                 with _on_this_machine(path) as local:
                     check_head(local)  # a broken file is told as such
-            raise Skipped("no caption and no label; add it to --captions or write a --labels rule")
+            raise Skipped("no caption and no label; add it to the captions or write a label rule")
         motion = cut(_last_read(self.reading, path, self.mappings), piece)
         if motion.num_frames < MIN_FRAMES:
             raise Skipped(f"{motion.num_frames} frames at {FPS:g} fps; {MIN_FRAMES} are needed")

@@ -116,7 +116,7 @@ def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") 
         names: what BVH, GLB and USD call the joints (`rig.SCHEMES`).
 
     Raises:
-        UsageError: no format has this ending.
+        UsageError: no format has this ending, or it is not one motion.
         UserError: the motion is empty or holds NaN, or the file cannot be written.
     """
     path = Path(path)
@@ -163,8 +163,15 @@ def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     return EXPORTERS["html"](motions, path)
 
 
-def check_motion(motion: Motion, path: str | Path) -> None:
-    """Refuse what no viewer could show; a diverged model makes such motions."""
+def check_motion(motion: Any, path: str | Path) -> None:
+    """Refuse what is not one motion, or what no viewer could show; diverged models make such."""
+    if not isinstance(motion, Motion):
+        several = isinstance(motion, Sequence) and all(isinstance(each, Motion) for each in motion)
+        found = f"{len(motion)} motions" if several else type(motion).__name__
+        raise UsageError(
+            f"cannot write {path}: motion is {found}; give one Motion, as `generate` and"
+            " `read_motion` make them" + ", and each a file of its own" * several
+        )
     if not motion.num_frames:
         raise UserError(f"cannot write {path}: the motion has no frames; give one with some")
     arrays = (motion.quaternions, motion.root_position, motion.contacts)

@@ -122,6 +122,7 @@ class Source:
         records: with bodies.
         total: how many these are, or are a part of.
         bad: phrases that could not be used, with the reason.
+        captions: of the clips behind them.
 
     Raises:
         UserError: nothing there, no phrases of the split, or phrases without bodies.
@@ -145,12 +146,15 @@ class Source:
             )
         self.total = len(self.records)
         self._pairs = _pairs(remote)
-        self._captions = {}  # of clips: a phrase's caption tells of the one it shows longest
+        self.captions: dict[str, str] = {}  # of clips
         for record in everything:
-            if record.id in self._pairs and record.caption:
-                pieces = self._pairs[record.id]["pieces"]
+            pair = self._pairs.get(record.id, {})
+            if "captions" in pair:
+                self.captions |= pair["captions"]
+            elif pair and record.caption:  # older folders tell of the clip that is shown longest
+                pieces = pair["pieces"]
                 longest = max(pieces, key=lambda piece: piece["last"] - piece["first"])
-                self._captions[str(longest["clip"])] = record.caption
+                self.captions[str(longest["clip"])] = record.caption
 
     def part(self, first: int, last: int) -> "Source":
         """The phrases from `first` to before `last`, as light as can be: for a job elsewhere."""
@@ -158,7 +162,7 @@ class Source:
         part.records, part.bad = self.records[first:last], {}
         part._pairs = {r.id: self._pairs[r.id] for r in part.records if r.id in self._pairs}
         clips = {piece["clip"] for pair in part._pairs.values() for piece in pair["pieces"]}
-        part._captions = {clip: self._captions[clip] for clip in clips & self._captions.keys()}
+        part.captions = {clip: self.captions[clip] for clip in clips & self.captions.keys()}
         return part
 
     def pieces(self, config: MemoryConfig) -> Iterator[Piece]:
@@ -201,7 +205,7 @@ class Source:
             cut = Phrase(
                 id=f"{record.id}/{start:04d}",
                 song=record.song or record.id,
-                caption=self._captions.get(clip, "") if clip else record.caption,
+                caption=self.captions.get(clip, "") if clip else record.caption,
                 clip=clip,
                 tempo=record.tempo,
                 audio_key=NO_KEY,
@@ -269,7 +273,7 @@ def build_memory(
     """
     config = config or MemoryConfig()
     source = Source(str(data), split)
-    made_of, out = _made_of(source.records, space, config), place(out)
+    made_of, out = _made_of(source, space, config), place(out)
     with writable(out) as folder:
         if _opened(folder, made_of):
             progress(source.total, source.total)
@@ -308,10 +312,11 @@ def build_memory(
         return index
 
 
-def _made_of(records: Sequence[PhraseRecord], space: SharedSpace, config: MemoryConfig) -> str:
+def _made_of(source: Source, space: SharedSpace, config: MemoryConfig) -> str:
     """Changes when anything that the memory is made of does."""
-    contents = [(r.id, r.key, r.body.key if r.body else "", r.caption) for r in records]
-    text = json.dumps([VERSION, space.fingerprint, config.bars, config.min_frames, contents])
+    parts = [(r.id, r.key, r.body.key if r.body else "", r.caption) for r in source.records]
+    contents = [parts, sorted(source.captions.items())]
+    text = json.dumps([VERSION, space.fingerprint, config.bars, config.min_frames, *contents])
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -43,7 +43,18 @@ def gaussian_frechet(
 
 
 def frechet_distance(a: np.ndarray, b: np.ndarray) -> float:
-    """Fréchet distance of two samples [N, D] and [M, D]; raises ValueError on NaN or N < 2."""
+    """Fréchet distance of two samples [N, D] and [M, D].
+
+    Raises:
+        ValueError: no arrays of two axes and one width, NaN, or N < 2.
+    """
+    for name, sample in (("a", a), ("b", b)):
+        if not isinstance(sample, np.ndarray):
+            raise ValueError(f"{name} is a {type(sample).__name__}; give an array [N, D]")
+    if a.ndim == b.ndim == 2 and a.shape[1] != b.shape[1]:
+        raise ValueError(
+            f"samples {list(a.shape)} and {list(b.shape)} differ in width; give [N, D] and [M, D]"
+        )
     return gaussian_frechet(*_moments(a), *_moments(b))
 
 

@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from functools import lru_cache
 from hashlib import sha1
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
@@ -31,6 +31,9 @@ from .checkpoint import (
     read_card,
     resolve_model,
 )
+
+if TYPE_CHECKING:
+    from huggingface_hub import HfApi
 
 PROGRAM, README = "motionsuite", "README.md"
 NAME = re.compile(
@@ -209,6 +212,8 @@ def _told(repo: str, revision: str | None, endpoint: str | None, local: bool) ->
     offline = local or constants.is_offline_mode()
     log_in = "log in with `hf auth login`, or set HF_TOKEN"
     logging.getLogger("huggingface_hub").propagate = False  # it writes to stderr by itself
+    # "No files matched" of a repository without a card, which is told below
+    logging.getLogger("huggingface_hub._snapshot_download").setLevel(logging.ERROR)
     if not sys.stderr.isatty():
         utils.disable_progress_bars()
     try:
@@ -253,6 +258,12 @@ def _told(repo: str, revision: str | None, endpoint: str | None, local: bool) ->
             f"{hub} refused {name} ({_reason(error)}); correct it and push again"
         ) from error
     except OSError as error:
+        if error.errno is None or isinstance(error, ConnectionError | TimeoutError):
+            # not of this machine's files: xet, which carries large files, raises Python's own
+            raise UserError(
+                f"{hub} failed to take or send the files of {name} ({_reason(error)}); set"
+                " HF_HUB_DISABLE_XET=1 where a server does not speak xet, else check the connection"
+            ) from error
         reason = why_not_written(error)
         raise UserError(
             f"cannot keep {name} in the cache, {constants.HF_HUB_CACHE}: {reason}; free space, or"
@@ -279,7 +290,8 @@ def push_to_hub(
 ) -> str:
     """Publish a model in one commit, with its card; returns the commit's address.
 
-    A repository that is not there is made, and so is a branch. Files of a model that an earlier
+    A repository that is not there is made (and goes again if nothing got into it), and so is a
+    branch. Files of a model that an earlier
     commit brought and this model does not have are deleted; others are left.
 
     Args:
@@ -302,23 +314,38 @@ def push_to_hub(
 
     with _told(name, branch, endpoint, local=False):
         api = HfApi(endpoint=endpoint, library_name=PROGRAM)
-        api.create_repo(name, private=private, exist_ok=True)
-        if branch is not None:
-            api.create_branch(name, branch=branch, exist_ok=True)
-        there = [
-            file for file in api.list_repo_files(name, revision=branch) if OURS.fullmatch(file)
-        ]
-        commit = api.create_commit(
-            name,
-            [
-                *(CommitOperationAdd(file, folder / file) for file in files if file != README),
-                CommitOperationAdd(README, card.encode()),
-                *(CommitOperationDelete(file) for file in there if file not in (*files, README)),
-            ],
-            commit_message=message or f"Upload {folder.name} by {PROGRAM}",
-            revision=branch,
-        )
+        with _made(api, name, private=private):
+            if branch is not None:
+                api.create_branch(name, branch=branch, exist_ok=True)
+            there = [
+                file for file in api.list_repo_files(name, revision=branch) if OURS.fullmatch(file)
+            ]
+            left = [file for file in there if file not in (*files, README)]
+            commit = api.create_commit(
+                name,
+                [
+                    *(CommitOperationAdd(file, folder / file) for file in files if file != README),
+                    CommitOperationAdd(README, card.encode()),
+                    *map(CommitOperationDelete, left),
+                ],
+                commit_message=message or f"Upload {folder.name} by {PROGRAM}",
+                revision=branch,
+            )
     return str(commit.commit_url)
+
+
+@contextmanager
+def _made(api: "HfApi", name: str, *, private: bool) -> Iterator[None]:
+    """Make a repository that is not there; where nothing got into it, it goes again."""
+    new = not api.repo_exists(name)
+    api.create_repo(name, private=private, exist_ok=True)
+    try:
+        yield
+    except BaseException:
+        with suppress(Exception):  # what went wrong first is what is told
+            if new and set(api.list_repo_files(name)) <= {".gitattributes"}:
+                api.delete_repo(name)
+        raise
 
 
 def model_files(folder: Path) -> list[str]:

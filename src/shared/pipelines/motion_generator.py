@@ -542,6 +542,11 @@ def load(
 def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
     from ..audio.song import Song, analyse
 
+    if not isinstance(audio, Song | str | Path):
+        raise UsageError(
+            f"audio is a {type(audio).__name__}; give a sound file, or a Song (of samples in"
+            " memory: write them as WAV first)"
+        )
     return audio if isinstance(audio, Song) else analyse(audio, meter=meter)
 
 

@@ -269,10 +269,33 @@ def test_an_unknown_language_stops_before_any_clip(tmp_path: Path) -> None:
     root = bvh_folder(tmp_path / "in", 1)
     table = root / "captions.csv"
     table.write_text("clip,caption,language\ntake0,kävelee,fi\n", encoding="utf-8")
+    other = root / "more.json"
+    other.write_text('{"take0": {"en": "walks", "sv": "går"}}', encoding="utf-8")
     source = MotionFolder.open(root, captions=[table])
-    with pytest.raises(UserError, match=r"captions\.csv.*'fi'.*--no-mirror"):
+    with pytest.raises(UserError, match=r"captions\.csv, line 2: .*'fi'.*`mirror=False`"):
         prepare([source], tmp_path / "out")
+    with pytest.raises(UserError, match=r"captions [^ ]*more\.json, 'take0': .*'sv'"):
+        prepare(root, tmp_path / "out", captions=[root / "more.json"])
     assert not (tmp_path / "out").exists()
+
+
+def test_captions_are_given_from_python(tmp_path: Path) -> None:
+    root = bvh_folder(tmp_path / "in", 2)
+    more = root / "more.csv"
+    more.write_text("clip,caption\ntake0,she walks\n", encoding="utf-8")
+    for number, given in enumerate((str(more), [more, root / "captions.csv"])):
+        out = tmp_path / f"out{number}"
+        report = prepare(str(root), out, captions=given, mirror=False)
+        records = {record.take: record for record in PreparedData.open(out).records()}
+        assert records["in/take0"].captions["en"][0] == "she walks"
+        assert report["clips"] == len(records) == 1 + number
+    together = prepare([root, SyntheticSource(2)], tmp_path / "out", captions=more)
+    assert together["by_source"] == {"in": 1, "synthetic": 2}
+    with pytest.raises(UsageError, match=r"more\.csv without a folder or file"):
+        prepare([SyntheticSource(2)], tmp_path / "none", captions=more)
+    with pytest.raises(UserError, match=r"missing\.csv"):
+        prepare(root, tmp_path / "none", captions=root / "missing.csv")
+    assert not (tmp_path / "none").exists()
 
 
 def test_nothing_usable_is_an_error(tmp_path: Path) -> None:

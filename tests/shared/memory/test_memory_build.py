@@ -231,6 +231,29 @@ def test_the_clip_that_is_shown_names_the_phrase(tmp_path: Path) -> None:
         assert caption == f"a person does a {clip}"
 
 
+def test_each_clip_of_a_phrase_has_a_caption_of_its_own(tmp_path: Path) -> None:
+    """Where the data tells of every clip: "run" is nowhere shown longest."""
+    pairs = write_dancers(tmp_path / "pairs", 2, frames=240)
+    manifest = json.loads((pairs / MANIFEST).read_text())
+    for phrase in manifest["phrases"]:
+        phrase["pair"] = {
+            "pieces": [
+                {"clip": "walk", "first": 0, "last": 150, "at": 0},
+                {"clip": "run", "first": 0, "last": 100, "at": 140},
+            ],
+            "warp": {"start": 0.0, "knot_seconds": 0.2, "rates": [1.0] * 41},
+        }
+    (pairs / MANIFEST).write_text(json.dumps(manifest))
+    before = build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    assert {c for n, c in zip(before.clips, before.captions, strict=True) if n == "run"} == {""}
+    for phrase in manifest["phrases"]:
+        phrase["pair"]["captions"] = {"walk": "she strolls", "run": "she hurries"}
+    (pairs / MANIFEST).write_text(json.dumps(manifest))
+    index = build_memory(pairs, LinearSpace(), tmp_path / "memory")
+    told = set(zip(index.clips, index.captions, strict=True))
+    assert told == {("walk", "she strolls"), ("run", "she hurries")}
+
+
 def test_a_bucket_will_do(pairs: Path, tmp_path: Path) -> None:
     files = fsspec.filesystem("memory")
     for file in pairs.rglob("*"):

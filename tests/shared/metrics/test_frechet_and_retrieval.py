@@ -61,6 +61,10 @@ def test_frechet_survives_a_singular_covariance_and_refuses_nan() -> None:
         frechet_distance(flat, np.full((5, 6), np.nan))
     with pytest.raises(ValueError, match="N >= 2"):
         frechet_distance(flat, flat[:1])
+    with pytest.raises(ValueError, match=r"^samples \[50, 6\] and \[50, 4\] differ in width.*"):
+        frechet_distance(flat, flat[:, :4])
+    with pytest.raises(ValueError, match=r"^b is a list; give an array \[N, D\]$"):
+        frechet_distance(flat, flat.tolist())
 
 
 def test_projection_keeps_the_directions_of_largest_variance() -> None:

@@ -90,7 +90,7 @@ class Handler(BaseHTTPRequestHandler):
         try:
             for pattern, answer in ROUTES.items():
                 if found := re.fullmatch(pattern, f"{self.command} {path}"):
-                    if self.command in ("POST", "PUT"):
+                    if self.command in ("POST", "PUT", "DELETE"):
                         self.require_token()
                     answer(self, data, **found.groupdict())
                     return
@@ -99,7 +99,7 @@ class Handler(BaseHTTPRequestHandler):
             code = {"X_Error_Code": refusal.code} if refusal.code else {}
             self.answer(refusal.status, {"error": refusal.code or "refused"}, **code)
 
-    do_GET = do_HEAD = do_POST = do_PUT = handle_request
+    do_GET = do_HEAD = do_POST = do_PUT = do_DELETE = handle_request
 
     def require_token(self) -> None:
         if not self.logged_in() and self.command != "PUT":  # what is put has an address of its own
@@ -128,6 +128,9 @@ class Handler(BaseHTTPRequestHandler):
         names = [{"rfilename": name} for name in self.repository(repo).commits[oid]]
         found = {"_id": repo, "id": repo, "modelId": repo, "sha": oid, "siblings": names}
         self.answer(200, found | {"private": False, "tags": [], "downloads": 0, "likes": 0})
+
+    def info_of_main(self, data: bytes, repo: str) -> None:
+        self.info(data, repo, "main")
 
     def tree(self, _: bytes, repo: str, ref: str) -> None:
         files = self.repository(repo).commits[self.commit_of(repo, ref)]
@@ -163,6 +166,11 @@ class Handler(BaseHTTPRequestHandler):
         made.commit({".gitattributes": b"*.safetensors filter=lfs\n"})
         self.hub.repositories[name] = made
         self.answer(200, {"url": url})
+
+    def delete(self, data: bytes) -> None:
+        asked = json.loads(data)
+        del self.hub.repositories[f"{asked['organization']}/{asked['name']}"]
+        self.answer(200, {})
 
     def branch(self, _: bytes, repo: str, ref: str) -> None:
         found = self.repository(repo)
@@ -221,9 +229,11 @@ class Handler(BaseHTTPRequestHandler):
 REPO = r"(?P<repo>[\w.-]+/[\w.-]+)"
 ROUTES: dict[str, Callable[..., None]] = {
     rf"GET /api/models/{REPO}/revision/(?P<ref>.+)": Handler.info,
+    rf"GET /api/models/{REPO}": Handler.info_of_main,
     rf"GET /api/models/{REPO}/tree/(?P<ref>[^/]+)": Handler.tree,
     rf"(GET|HEAD) /{REPO}/resolve/(?P<ref>[^/]+)/(?P<file>.+)": Handler.resolve,
     r"POST /api/repos/create": Handler.create,
+    r"DELETE /api/repos/delete": Handler.delete,
     r"POST /api/validate-yaml": Handler.valid,
     rf"POST /api/models/{REPO}/branch/(?P<ref>.+)": Handler.branch,
     rf"POST /api/models/{REPO}/preupload/(?P<ref>.+)": Handler.preupload,

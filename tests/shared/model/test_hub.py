@@ -120,6 +120,28 @@ def test_a_push_replaces_the_model_and_leaves_what_is_not_its_own(hub: Hub, tool
     assert b"license: cc-by-4.0" in stored.files(first)["README.md"]
 
 
+@pytest.mark.parametrize("there", [False, True])
+def test_a_server_without_xet_is_named_and_left_as_it_was(hub: Hub, tools, model: Path, there):
+    words = ("models", "push", model, REPO, "--licence", "cc-by-4.0")
+    if there:
+        hub.repositories[REPO] = made = Repository()
+        made.commit({".gitattributes": b""})
+    before = set(hub.repositories)
+    done = tools(*words, HF_HUB_DISABLE_XET="0")
+    failed(done, 1, "xet-write-token", "set HF_HUB_DISABLE_XET=1")
+    assert "cache" not in done.stderr and "free space" not in done.stderr
+    assert set(hub.repositories) == before
+    assert tools(*words).returncode == 0
+
+
+def test_a_repository_without_a_card_is_told_of_once(hub: Hub, tools):
+    hub.repositories[REPO] = made = Repository()
+    made.commit({".gitattributes": b""})
+    done = tools("models", "pull", REPO)
+    failed(done, 1, "is no model of motionsuite")
+    assert len(done.stderr.splitlines()) == 1
+
+
 PYTHON = """
 import sys, motionsuite as ms
 name, folder, endpoint, cache = sys.argv[1:]

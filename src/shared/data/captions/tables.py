@@ -42,6 +42,7 @@ class Piece:
         labels: as label rules give them; `action` and so on.
         captions: language -> wordings.
         provenance: where the motion comes from.
+        told: language -> the first file and row with captions in it; "" stands for none.
     """
 
     start: float = 0.0
@@ -51,6 +52,7 @@ class Piece:
     labels: Mapping[str, str] = field(default_factory=dict)
     captions: Mapping[str, Sequence[str]] = field(default_factory=dict)
     provenance: Provenance = "captured"
+    told: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def whole(self) -> bool:
@@ -63,7 +65,8 @@ class Piece:
         for language, texts in other.captions.items():
             captions.setdefault(language, []).extend(texts)
         labels = {**other.labels, **self.labels}
-        return replace(self, labels=labels, captions=captions)
+        told = {**other.told, **self.told}
+        return replace(self, labels=labels, captions=captions, told=told)
 
 
 Table = dict[str, tuple[Piece, ...]]  # clip -> its pieces
@@ -132,9 +135,10 @@ def _piece(path: Path, row: _Row) -> tuple[str, Piece]:
         raise UserError(f"{place}: provenance {provenance!r} is not known;"
                         f" choose from {', '.join(get_args(Provenance))}")  # fmt: skip
     captions = {cells.get("language", "").strip() or "en": texts} if texts else {}
+    told = dict.fromkeys(captions or [""], place)
     last = None if end == math.inf else end
     clip = without_ending(Path(clip.replace("\\", "/")).as_posix())
-    return clip, Piece(start, last, int(repeat), hold, labels, captions, provenance)
+    return clip, Piece(start, last, int(repeat), hold, labels, captions, provenance, told)
 
 
 def _number(place: str, key: str, cells: dict[str, str], default: float) -> float:
@@ -157,7 +161,7 @@ def without_ending(name: str) -> str:
 
 
 def match_captions(
-    captions: Table, sources: Sequence[tuple[str, Sequence[str]]], paths: Sequence[Path]
+    captions: Table, sources: Sequence[tuple[str, Sequence[str]]]
 ) -> tuple[list[Table], dict[str, bool]]:
     """Give each row to its file: by the path below its folder first, by the file name otherwise.
 
@@ -165,7 +169,6 @@ def match_captions(
         captions: as `read_captions` gives them.
         sources: name of each folder, and the paths of its files relative to it, with their
             endings; a row may begin with the name, or with folders above it.
-        paths: the tables, for errors.
 
     Returns:
         pieces by item of each source, and for each row whether it found a file.
@@ -186,10 +189,9 @@ def match_captions(
         files = exact[row] or fitting[row]
         if len(files) > 1 and (exact[row] or "/" not in row):
             named = ", ".join(f"{file.folder}/{file.item}" for file in files[:4])
-            tables = ", ".join(map(str, paths))
+            where = next((place for piece in pieces for place in piece.told.values()), "captions")
             raise UserError(
-                f"captions {tables}: clip {row!r} fits {len(files)} files ({named}); write the"
-                " folder too"
+                f"{where}: clip {row!r} fits {len(files)} files ({named}); write the folder too"
             )
         file = files[0] if len(files) == 1 else None
         if not exact[row] and "/" in row and file in taken:

@@ -40,7 +40,7 @@ from ...motion.rotations import (
     yaw_quaternion,
 )
 from ..phrases.layout import StoredObject, write_body
-from ..prepared import MIRRORED, PreparedData
+from ..prepared import MIRRORED, ClipRecord, PreparedData
 from .clip_library import FPS, MARGIN, Clip, track_of
 
 LIMIT = 0.15
@@ -332,8 +332,8 @@ def add_body(out: Place, entry: Entry, data: PreparedData) -> None:
 
 
 def describe(out: Place, entries: Sequence[Entry], data: PreparedData) -> None:
-    """Put body, tag, caption and clips of phrases into their records; bodies that are missing
-    are made, as in folders of before.
+    """Put body, tag, caption and clips of phrases into their records, and a caption of each of
+    their clips beside these; bodies that are missing are made, as in folders of before.
     """
     records = data.records_by_id
     for entry in entries:
@@ -353,6 +353,17 @@ def describe(out: Place, entries: Sequence[Entry], data: PreparedData) -> None:
             "caption": spoken[chosen],
             "clips": sorted({part["clip"].removesuffix(MIRRORED) for part in parts}),
         }
+        told = {part["clip"]: _told(records[part["clip"]], data) for part in parts}
+        entry["pair"]["captions"] = {clip: text for clip, text in told.items() if text}
+
+
+def _told(record: ClipRecord, data: PreparedData) -> str:
+    """A caption of a clip: its own if it has one, rather than one of its labels; English first."""
+    for captions in (record.captions, data.captions(record)):
+        for texts in (captions.get("en", []), *captions.values()):
+            if texts:
+                return texts[0]
+    return ""
 
 
 def read_pair(pair: Entry) -> tuple[list[Piece], Warp]:

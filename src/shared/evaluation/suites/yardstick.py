@@ -75,6 +75,26 @@ class Asked:
         return [request.action for request in self.requests]
 
 
+def too_few(kept: Sequence[ClipRecord], known: set[str]) -> str:
+    """Why captured clips held back from training are not enough to measure by, and what to do."""
+    faults = {
+        "have no action label": sum(not r.tag for r in kept),
+        "an action that no captured clip of training shows": sum(
+            bool(r.tag) and r.tag not in known for r in kept
+        ),
+        f"fewer than {MIN_FRAMES} frames": sum(r.num_frames < MIN_FRAMES for r in kept),
+    }
+    if not any(faults.values()):
+        held = f"{len(kept)} captured clip" if kept else "no captured clip"
+        return f"holds {held} back from training, and 2 are needed; prepare more of them"
+    named = ", ".join(f"{number} {what}" for what, number in faults.items() if number)
+    return (
+        f"holds {len(kept)} captured clips back from training, of which {named}; label them"
+        " (column action of the captions, or label rules), and prepare longer ones where they are"
+        " short"
+    )
+
+
 class Yardstick:
     """Captured clips, the judge that learned from them, and the clips nobody recorded."""
 
@@ -98,12 +118,10 @@ class Yardstick:
         self.judge = self.recognizer.judge
         self.space = FeatureSpace.fit(self.known.features, np.zeros(self.known.features.shape[1]))
         kept_back = chain.from_iterable(map(data.records, ("test_seen", "test_unseen", "val")))
-        held = [r for r in kept_back if r.provenance == "captured" and r.tag in self.captured
-                and r.num_frames >= MIN_FRAMES]  # fmt: skip
+        kept = [r for r in kept_back if r.provenance == "captured"]
+        held = [r for r in kept if r.tag in self.captured and r.num_frames >= MIN_FRAMES]
         if len(held) < 2:
-            raise UserError(
-                f"{data.folder} holds no captured clip back from training; prepare more of them"
-            )
+            raise UserError(f"{data.folder} {too_few(kept, self.captured)}")
         progress("descriptors of the held-out clips")
         self.records = spread_over_groups(held, settings.max_clips, settings.seed)
         self.real = self.clips(self.records)

@@ -20,6 +20,7 @@ knows synonyms, so there a close embedding is enough.
 Letters: N captions, A actions, D embed dim.
 """
 
+import hashlib
 import math
 import re
 import unicodedata
@@ -73,12 +74,14 @@ class ScopeResult:
         nearest: known actions, nearest first.
         unreliable: the action that was understood and seldom comes out, if that is why.
         certainty: log odds that the nearest action is what it asks for; by words alone, 1 or -1.
+        mistaken: the action of the training caption that it is, if it lies at another.
     """
 
     known: bool
     nearest: list[str]
     unreliable: str | None = None
     certainty: float = 0.0
+    mistaken: str | None = None
 
 
 def words_of(text: str) -> list[str]:
@@ -94,6 +97,12 @@ def words_of(text: str) -> list[str]:
         else:
             words.append(run)
     return words
+
+
+def caption_key(text: str) -> int:
+    """Of 64 bits, the same for captions of the same words."""
+    digest = hashlib.blake2b(" ".join(words_of(text)).encode(), digest_size=8).digest()
+    return int.from_bytes(digest, "little", signed=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +126,7 @@ class OutOfDomainDetector:
         arms: actions done with the arms alone.
         still: actions that end where they began, and face the same way.
         checked: actions that `metrics.measurements` tells, as captured clips bear out.
+        captions: `caption_key` of a training caption -> its action; older folders have none.
     """
 
     __pydantic_config__: ClassVar = ConfigDict(  # of what scope.json holds
@@ -137,6 +147,7 @@ class OutOfDomainDetector:
     arms: tuple[str, ...] = ()
     still: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
+    captions: Mapping[int, int] = field(default_factory=dict)
 
     @classmethod
     def fit(
@@ -186,6 +197,7 @@ class OutOfDomainDetector:
             means=means.astype(np.float32),
             false_alarms=false_alarms,
             min_cosine=float(np.quantile(cosines, 0.01)) if pretrained_tower else None,
+            captions=dict(zip(map(caption_key, captions), labels.tolist(), strict=True)),
         )
 
     def with_action(
@@ -218,6 +230,10 @@ class OutOfDomainDetector:
             key_words=key_words,
             words=self.words.union(*texts),
             means=np.concatenate((self.means, place)),
+            captions={
+                **dict.fromkeys(map(caption_key, captions), len(self.actions)),
+                **self.captions,
+            },
         )
 
     def check(
@@ -238,7 +254,15 @@ class OutOfDomainDetector:
         known = certainty > 0
         if self.warning_weights is not None and closeness is not None:
             known = float(np.array([closeness, *evidence]) @ self.warning_weights) > 0
-        nearest = [self.actions[index] for index in self.ranked(cosines)[:NUM_NEAREST]]
+        ranked = self.ranked(cosines)
+        nearest = [self.actions[index] for index in ranked[:NUM_NEAREST]]
+        own = self.captions.get(caption_key(prompt))
+        if own is not None and not known:
+            # word for word a training caption: unknown it is not, though a tower of few steps, or
+            # few captions to calibrate on, may say so
+            if self.actions[own] and own not in self._twins(ranked[0]):
+                return ScopeResult(False, nearest, None, certainty, self.actions[own])
+            known, certainty = True, max(certainty, 1.0)
         if known and nearest and self.reliability.get(nearest[0], 1.0) < RELIABLE:
             return ScopeResult(False, nearest, nearest[0], certainty)
         return ScopeResult(known, nearest, certainty=certainty)
@@ -320,6 +344,12 @@ class OutOfDomainDetector:
                 f" {self.reliability[result.unreliable]:.0%} of tries; look at the motion before"
                 " you use it"
             )
+        if result.mistaken is not None:
+            return (
+                f"prompt {prompt!r} is a training caption of {result.mistaken!r} that this model"
+                f" takes for {result.nearest[0]!r}: it has not learned to tell them apart; train it"
+                " for more steps, or on more clips"
+            )
         near = f"; nearest known actions: {', '.join(result.nearest)}" if result.nearest else ""
         return f"prompt {prompt!r} is far from anything this model was trained on{near}"
 
@@ -329,8 +359,11 @@ class OutOfDomainDetector:
 
         folder = Path(folder)
         with atomic_write(folder / TABLE_FILE) as temporary:
-            save_file({"means": self.means.astype(np.float16)}, temporary)
-        names = [each.name for each in fields(self) if each.name != "means"]
+            tables = {"means": self.means.astype(np.float16)}
+            if self.captions:
+                tables["captions"] = np.array([*self.captions.items()], np.int64)
+            save_file(tables, temporary)
+        names = [each.name for each in fields(self) if each.name not in ("means", "captions")]
         meta = {name.replace("_", "-"): getattr(self, name) for name in names}
         meta |= {"words": sorted(self.words), "fillers": sorted(self.fillers)}
         write_json(folder / META_FILE, meta | {"reliability": dict(self.reliability)})
@@ -349,17 +382,20 @@ class OutOfDomainDetector:
         if not (folder / META_FILE).is_file():
             return None
         try:
-            means = load_file(folder / TABLE_FILE)["means"].astype(np.float32)
-            meta = load_json(folder / META_FILE) | {"means": means}
+            tables = load_file(folder / TABLE_FILE)
+            means = tables["means"].astype(np.float32)
+            captions = dict(tables.get("captions", np.zeros((0, 2), np.int64)).tolist())
+            meta = load_json(folder / META_FILE) | {"means": means, "captions": captions}
             if meta.get("fillers") is None:
                 # folders of before had none: a prompt of trained words alone told nothing
                 meta["fillers"] = meta.get("words")
             found = TypeAdapter(cls).validate_python(meta)
             rows = {row for actions in found.key_words.values() for row in actions}
+            rows |= {*found.captions.values()}
             if means.ndim != 2 or len(means) != len(found.actions) or not np.isfinite(means).all():
                 raise ValueError(f"{len(found.actions)} actions and means {list(means.shape)}")
             if rows and not 0 <= min(rows) <= max(rows) < len(found.actions):
-                raise ValueError("a key word tells of an action that is not there")
+                raise ValueError("a key word or caption tells of an action that is not there")
             return found
         except ValidationError as error:
             raise of_another_version(folder / META_FILE, error) from error

@@ -121,12 +121,13 @@ def test_a_missing_or_binary_file(tmp_path: Path) -> None:
 def saying(*rows: str, **words: str) -> Table:
     """A table whose rows have a caption: their own name, or the word given."""
     given = {**dict(zip(rows, rows, strict=True)), **words}
-    return {row: (Piece(captions={"en": [word]}),) for row, word in given.items()}
+    told = {"en": "captions c.csv, line 2"}
+    return {row: (Piece(captions={"en": [word]}, told=told),) for row, word in given.items()}
 
 
 def match(rows: list[str], *items: str) -> tuple[dict[str, list[str]], list[str]]:
     """Rows by file, and the rows without one; the caption of each row is the row."""
-    (matched,), found = match_captions(saying(*rows), [("mocap", items)], [Path("c.csv")])
+    (matched,), found = match_captions(saying(*rows), [("mocap", items)])
     given = {item: languages["en"] for item, languages in texts(matched).items()}
     return given, [row for row, has_file in found.items() if not has_file]
 
@@ -140,18 +141,19 @@ def test_rows_find_their_files_by_path_then_by_name() -> None:
     assert match(["take1"], "take1.bvh", "walk/take1.bvh")[0] == {"take1.bvh": ["take1"]}
     assert match(["else/where/a.b"], "x/a.b.bvh")[0] == {"x/a.b.bvh": ["else/where/a.b"]}
     with pytest.raises(
-        UserError, match=r"c\.csv: clip 'take1' fits 2 .*walk/take1.bvh, mocap/run/take1"
+        UserError,
+        match=r"captions c\.csv, line 2: clip 'take1' fits 2 .*walk/take1.bvh, mocap/run/take1",
     ):
         match(["take1"], *files)
 
 
 def test_the_folder_of_a_row_parts_two_sources() -> None:
     captions = saying(**{f"{folder}/take1": folder for folder in ("walk", "run")})
-    (matched,), found = match_captions(captions, [("run", ["take1.bvh"])], [])
+    (matched,), found = match_captions(captions, [("run", ["take1.bvh"])])
     assert texts(matched) == {"take1.bvh": {"en": ["run"]}}
     assert found == {"walk/take1": False, "run/take1": True}
     both = [("walk", ["take1.bvh"]), ("run", ["take1.bvh"])]
-    matched, found = match_captions(captions, both, [])
+    matched, found = match_captions(captions, both)
     assert [*map(texts, matched)] == [{"take1.bvh": {"en": [folder]}} for folder in ("walk", "run")]
     assert all(found.values())
 
@@ -159,9 +161,9 @@ def test_the_folder_of_a_row_parts_two_sources() -> None:
 def test_a_row_that_fits_a_file_of_each_source_is_refused() -> None:
     sources = [("a/mocap", ["take1.bvh"]), ("b/mocap", ["take1.bvh", "take2.bvh"])]
     with pytest.raises(UserError, match=r"'take1' fits 2 .*a/mocap/take1.bvh, b/mocap/take1.bvh"):
-        match_captions(saying("take1"), sources, [Path("c.csv")])
+        match_captions(saying("take1"), sources)
     rows = saying(**{"b/mocap/take1": "walks", "take2": "runs"})
-    matched, _ = match_captions(rows, sources, [])
+    matched, _ = match_captions(rows, sources)
     assert [*map(texts, matched)] == [
         {},
         {"take1.bvh": {"en": ["walks"]}, "take2.bvh": {"en": ["runs"]}},

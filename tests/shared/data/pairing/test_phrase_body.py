@@ -1,6 +1,7 @@
 """Bodies of phrases: the trajectory's pelvis, the clips' joints, no jumps at seams."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from src.shared.data.pairing.music import SyntheticMusic
 from src.shared.data.pairing.phrase_motion import (
     SEAM_FRAMES,
     Piece,
+    _told,
     phrase_body,
     plain_warp,
     read_pair,
@@ -98,6 +100,16 @@ def test_what_a_phrase_shows_has_a_name(pairs: Path, data: PreparedData) -> None
         assert phrase["tag"] == record.tag
         assert phrase["clips"] == sorted({piece.clip.split("~")[0] for piece in pieces})
         assert phrase["caption"] in data.captions(record)["en"]
+        assert phrase["pair"]["captions"].keys() == {piece.clip for piece in pieces}
+
+
+def test_a_sentence_of_ones_own_goes_before_a_generated_one(data: PreparedData) -> None:
+    record = data.records("train")[0]
+    assert _told(record, data) == data.captions(record)["en"][0]
+    assert _told(replace(record, captions={"de": ["sie schlendert"]}), data) == "sie schlendert"
+    own = {"de": ["sie schlendert"], "en": ["she strolls"]}
+    assert _told(replace(record, captions=own), data) == "she strolls"
+    assert _told(replace(record, group="", captions={}), data) == ""
 
 
 def test_bodies_are_added_to_an_older_folder_and_mended(pairs: Path, data: PreparedData) -> None:

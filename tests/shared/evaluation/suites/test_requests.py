@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -113,6 +114,28 @@ def test_distances_compare_motions_of_the_lengths_of_captured_clips(
     for request, seconds in others:
         rows = yardstick.references(request.labels)
         assert seconds in {yardstick.real.motions[row].seconds for row in rows}
+
+
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({"provenance": "procedural"}, "holds no captured clip back from training, and 2"),
+        ({"tag": ""}, "of which [0-9]+ have no action label; label them"),
+        ({"tag": "swim"}, "of which [0-9]+ an action that no captured clip of training shows"),
+        ({"num_frames": 9}, "of which [0-9]+ fewer than [0-9]+ frames; .*longer ones"),
+    ],
+)
+def test_why_there_are_too_few_clips_is_told(
+    data: PreparedData, tmp_path: Path, changes: dict[str, Any], told: str
+) -> None:
+    few = PreparedData.open(data.folder)
+    few.__dict__["_all_records"] = [
+        record if record.split == "train" else replace(record, **changes)
+        for record in data.records()
+    ]
+    with pytest.raises(UserError, match=told) as raised:
+        Yardstick(few, SETTINGS, lambda text: None)
+    assert "\n" not in str(raised.value)
 
 
 def test_warnings_are_held_against_what_went_wrong(tables: dict[str, Grid]) -> None:

@@ -11,6 +11,7 @@ from src.shared.model.clip.out_of_domain import (
     FALSE_WARNINGS,
     META_FILE,
     OutOfDomainDetector,
+    caption_key,
     words_of,
 )
 
@@ -255,6 +256,38 @@ def test_an_action_that_seldom_comes_out_is_warned_of(scope: OutOfDomainDetector
     measured.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.reliability == measured.reliability
+
+
+def test_a_training_caption_is_not_unknown(scope: OutOfDomainDetector, tmp_path):
+    """Where a tower of a few steps tells nothing, and so every prompt would be warned of."""
+    doubting = replace(scope, weights=(0.0, 0.0, 0.0, 0.0, 0.0, -9.0))
+    place = np.eye(len(scope.actions))
+    kick, bow = place[scope.actions.index("kick")], place[scope.actions.index("bow")]
+    caption = next(t for t in ("a person bows", "someone bows") if caption_key(t) in scope.captions)
+    assert doubting.warning(caption, bow) is None
+    assert doubting.warning(caption.capitalize() + "!", bow) is None
+    assert doubting.check(caption, bow).certainty > 0
+    assert "far from anything" in (doubting.warning(f"{caption} in an office", bow) or "")
+    result = doubting.check(caption, kick)
+    assert not result.known and result.mistaken == "bow" and result.certainty < 0
+    told = doubting.warning(caption, kick) or ""
+    assert "is a training caption of 'bow' that this model takes for 'kick'" in told
+    assert "far from anything" not in told
+    doubting.save_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
+    assert loaded is not None and loaded.captions == scope.captions
+    older = replace(doubting, captions={})
+    assert "far from anything" in (older.warning(caption, bow) or "")
+    older.save_pretrained(tmp_path)
+    loaded = OutOfDomainDetector.from_pretrained(tmp_path)
+    assert loaded is not None and not loaded.captions
+
+
+def test_a_new_actions_captions_are_known_to_the_word(scope: OutOfDomainDetector):
+    place = np.full((1, len(scope.actions)), 1.0)
+    more = scope.with_action("crawl", ["a person crawls"], place, ["a person bows"])
+    assert more.captions[caption_key("A person crawls.")] == len(scope.actions)
+    assert scope.captions.items() <= more.captions.items()
 
 
 def test_one_gesture_under_two_names_is_no_rival_of_itself():
