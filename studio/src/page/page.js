@@ -9,13 +9,14 @@ import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
 import { readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
-import { fromLink, History, LIMITS, START, toLink } from "./scene.js";
+import { fromLink, History, LIMITS, START, toLink, within } from "./scene.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
 const $ = (id) => document.getElementById(id);
 const REMEMBERED = 24; // motions
 const WALK = 1.1; // m/s
+const CHANGED = "Changed: Enter or Make makes it.";
 
 export function openPage() {
   globalThis.studio = new Page(); // for scripts and tests
@@ -215,18 +216,23 @@ class Page {
 
   // ---------------------------------------------------------------- motions
 
-  /** What a take depends on. */
-  keyOf(take) {
-    const { blocks, path, seed } = this.scene;
-    return JSON.stringify([blocks, path, this.clip ? this.clipChoice() : null, seed + take]);
+  /** All that takes are made of, as it is now: what is made meanwhile of it is filed under it, whatever is changed. */
+  get asked() {
+    const { blocks, path, seed, takes } = this.scene;
+    return { blocks, path, seed, takes, clip: this.clip ? this.clipChoice() : null };
+  }
+
+  /** What a take depends on; a clip's number stands for its motion. */
+  keyOf(take, { blocks, path, clip, seed } = this.asked) {
+    return JSON.stringify([blocks, path, clip && { ...clip, motion: null }, seed + take]);
   }
 
   async make() {
     if (!this.client) return;
     if (this.making) { this.again = true; return; }
-    const { blocks, takes, seed, path } = this.scene;
-    const empty = blocks.findIndex(({ text }) => !text.trim());
-    if (empty >= 0 && !this.clip) {
+    const { asked } = this, { takes, seed, ...scene } = asked;
+    const empty = scene.blocks.findIndex(({ text }) => !text.trim());
+    if (empty >= 0 && !scene.clip) {
       this.select(empty);
       this.tell("Say in a few words what the body does.", "warning");
       $("text").focus();
@@ -239,11 +245,10 @@ class Page {
     let made = 0;
     try {
       for (let take = 0; take < takes; take++) {
-        const key = this.keyOf(take);
+        const key = this.keyOf(take, asked);
         if (this.motions.has(key)) continue;
         const what = takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …";
         this.tell(what);
-        const scene = { blocks, path, clip: this.clip ? this.clipChoice(true) : null };
         const start = performance.now();
         const motion = await this.client.call("make", { scene, seed: seed + take }, [], (frames) => this.tell(`${what} ${(frames / FPS).toFixed(1)} s`));
         this.motions.set(key, motion);
@@ -256,6 +261,7 @@ class Page {
       const choose = takes > 1 ? " Click a take to choose it." : "";
       this.tell((made ? `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.` : "Nothing has changed since it was made.") + choose);
       await this.warn();
+      if (this.keyOf(0) !== this.keyOf(0, asked)) this.tell(CHANGED);
     } catch (error) {
       this.tell(error.message, "error");
     } finally {
@@ -273,7 +279,7 @@ class Page {
     const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
     const stale = Boolean(this.shown) && !found.length;
     document.body.classList.toggle("stale", stale);
-    if (stale && !this.making && !this.drawing) this.tell("Changed: Enter or Make makes it.");
+    if (stale && !this.making && !this.drawing) this.tell(CHANGED);
     if (found.length) {
       const before = this.shown;
       this.shown = found;
@@ -429,7 +435,12 @@ class Page {
       document.body.classList.remove("dropping");
       if (event.dataTransfer.files[0]) this.openClip(event.dataTransfer.files[0]);
     });
-    for (const id of ["mode", "from", "until", "keep", "joints"]) $(id).addEventListener("change", () => { this.showClip(); this.showMotions(); });
+    for (const id of ["mode", "from", "until", "keep", "joints"])
+      $(id).addEventListener("change", ({ target }) => {
+        if (target.type === "number") target.value = within(target.valueAsNumber, [Number(target.min), Number(target.max || Infinity)], target.defaultValue);
+        this.showClip();
+        this.showMotions();
+      });
     $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
     $("close-clip").addEventListener("click", () => { this.clip = null; this.showClip(); this.showMotions(); });
     for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
@@ -456,10 +467,10 @@ class Page {
     this.showMotions();
   }
 
-  clipChoice(whole = false) {
-    const joints = $("joints").value === "all" ? [] : [$("joints").value];
-    const choice = { mode: $("mode").value, from: $("from").valueAsNumber || 0, until: $("until").valueAsNumber || 0, keep: $("keep").valueAsNumber || 1, joints };
-    return whole ? { ...choice, motion: this.clip.motion } : { ...choice, number: this.clip.number };
+  clipChoice() {
+    const { motion, number } = this.clip, joints = $("joints").value === "all" ? [] : [$("joints").value];
+    const [from, until, keep] = ["from", "until", "keep"].map((id) => $(id).valueAsNumber);
+    return { mode: $("mode").value, from, until, keep, joints, motion, number };
   }
 
   showClip() {

@@ -8,7 +8,7 @@ export const START = {
   seed: 0, takes: 2, chosen: 0, path: null,
 };
 
-const within = (value, [low, high], otherwise) => {
+export const within = (value, [low, high], otherwise) => {
   const number = Number(value);
   return Number.isFinite(number) ? Math.min(Math.max(number, low), high) : otherwise;
 };
