@@ -92,6 +92,7 @@ class Page {
     $("takes").addEventListener("change", () => this.history.change({ takes: $("takes").value, chosen: 0 }));
     $("dice").addEventListener("click", () => { this.history.change({ seed: Math.floor(Math.random() * 100000) }); this.make(); });
     $("make").addEventListener("click", () => this.make());
+    $("stop").addEventListener("click", () => this.stop());
     $("add").addEventListener("click", () => this.addBlock());
     $("cut").addEventListener("click", () => this.cutBlock());
     $("earlier").addEventListener("click", () => this.moveBlock(this.selected, this.selected - 1));
@@ -133,6 +134,7 @@ class Page {
     else if (control && event.key.toLowerCase() === "y" && !typing) { event.preventDefault(); this.history.redo(); }
     else if (event.key === " " && !typing && event.target.tagName !== "BUTTON") { event.preventDefault(); this.setPlaying(!this.playing); }
     else if (event.key === "Escape" && this.drawing) this.stopDrawing();
+    else if (event.key === "Escape" && !event.isComposing && !event.target.closest?.("dialog")) this.stop();
   }
 
   editBlock(update, kind = null) {
@@ -238,38 +240,66 @@ class Page {
       $("text").focus();
       return;
     }
-    this.making = true;
-    document.body.classList.add("making");
-    $("make").setAttribute("aria-busy", "true");
-    const began = performance.now();
-    let made = 0;
-    try {
+    const kept = { continue: [scene.clip?.keep, 0], between: [scene.clip?.keep, scene.clip?.keep] }[scene.clip?.mode] ?? [0, 0];
+    await this.during(async () => {
+      let made = 0;
+      this.tell(takes > 1 ? `Making ${takes} takes …` : "Making the motion …");
       for (let take = 0; take < takes; take++) {
-        const key = this.keyOf(take, asked);
+        const key = this.keyOf(take, asked), which = takes > 1 ? `take ${take + 1}` : "";
         if (this.motions.has(key)) continue;
-        const what = takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …";
-        this.tell(what);
+        $("progress").textContent = which;
         const start = performance.now();
-        const motion = await this.client.call("make", { scene, seed: seed + take }, [], (frames) => this.tell(`${what} ${(frames / FPS).toFixed(1)} s`));
-        this.motions.set(key, motion);
+        const motion = await this.client.call("make", { scene, seed: seed + take }, (frames) => { $("progress").textContent = `${which} ${(frames / FPS).toFixed(1)} s`; });
+        this.timings.motion = performance.now() - start;
+        this.motions.set(key, { ...motion, kept, took: this.timings.motion });
         if (this.motions.size > REMEMBERED) this.motions.delete(this.motions.keys().next().value);
         made++;
-        this.timings.motion = performance.now() - start;
         this.showMotions();
         this.timings.first ??= performance.now();
       }
-      const choose = takes > 1 ? " Click a take to choose it." : "";
-      this.tell((made ? `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.` : "Nothing has changed since it was made.") + choose);
+      const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take, asked)));
+      const took = `ade in ${(all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1)} s.`;
+      this.tell((made ? `M${took}` : `Nothing has changed since it was m${took}`) + (takes > 1 ? " Click a take to choose it." : ""));
       await this.warn();
       if (this.keyOf(0) !== this.keyOf(0, asked)) this.tell(CHANGED);
+    }, () => this.client.stop());
+  }
+
+  /** One thing at a time that takes long: told at its begin and its end, ended early by `halt`. */
+  async during(work, halt = () => {}) {
+    this.halt = halt;
+    this.stopped = false;
+    this.setMaking(true);
+    try {
+      await work();
     } catch (error) {
-      this.tell(error.message, "error");
-    } finally {
-      this.making = false;
-      document.body.classList.remove("making");
-      $("make").removeAttribute("aria-busy");
-      if (this.again) { this.again = false; this.make(); }
+      if (this.stopped) this.tell("Stopped; takes that are finished stay.");
+      else this.tell(error.message, "error");
     }
+    await this.client?.opened; // a stopped one begins anew
+    this.setMaking(false);
+    if (this.again) { this.again = false; this.make(); }
+  }
+
+  setMaking(making) {
+    this.making = making;
+    document.body.classList.toggle("making", making);
+    $("make").setAttribute("aria-busy", String(making));
+    this.offerStop(making);
+    this.showButtons();
+  }
+
+  offerStop(offered) {
+    if (!offered && document.activeElement === $("stop")) $("make").focus(); // the button goes
+    $("stop").hidden = !offered;
+  }
+
+  stop() {
+    if (!this.making || this.stopped) return;
+    this.stopped = true;
+    this.again = false;
+    this.offerStop(false);
+    this.halt();
   }
 
   /** The motions of the scene that are there; those of before, told stale, where none is. */
@@ -293,7 +323,13 @@ class Page {
       this.seek(this.time > seconds ? 0 : this.time);
     }
     this.showTakes();
-    for (const id of ["save-bvh", "save-glb", "save-vrma", "save-film"]) $(id).disabled = !this.shown;
+    this.showButtons();
+  }
+
+  /** What can be done with a motion, where there is one. */
+  showButtons() {
+    for (const id of ["save-bvh", "save-glb", "save-vrma", "use-motion"]) $(id).disabled = !this.shown;
+    $("save-film").disabled = !this.shown || !this.stage || this.making;
   }
 
   showTakes() {
@@ -330,11 +366,12 @@ class Page {
   tell(message, kind = "note") {
     $("status").textContent = message;
     $("status").className = kind;
+    $("progress").textContent = "";
   }
 
   warnSoon() {
     clearTimeout(this.warnTimer);
-    this.warnTimer = setTimeout(() => this.warn(), 400);
+    this.warnTimer = setTimeout(() => this.warn().catch(() => {}), 400); // where it is stopped, the next change asks again
   }
 
   /** Says which sentences the model hardly knows, and which motions do not show theirs. */
@@ -500,19 +537,15 @@ class Page {
   }
 
   async film() {
-    if (!this.stage) return;
     const before = this.playing;
     this.setPlaying(false);
-    $("save-film").disabled = true;
-    this.tell("Filming in real time …");
-    try {
-      const { blob, kind } = await recordFilm($("stage"), this.stage.seconds, (time) => this.seek(time));
+    await this.during(async () => {
+      this.tell("Filming in real time …");
+      const { blob, kind } = await recordFilm($("stage"), this.stage.seconds, (time) => { this.seek(time); return !this.stopped; });
+      if (this.stopped) { this.tell("Stopped; no film is saved."); return; }
       download(blob, this.fileName(kind));
       this.tell(`Saved ${this.fileName(kind)}.`);
-    } catch (error) {
-      this.tell(error.message, "error");
-    }
-    $("save-film").disabled = false;
+    });
     this.setPlaying(before);
   }
 
