@@ -181,9 +181,10 @@ class Page {
     this.history.change({ blocks });
   }
 
-  removeBlock() {
+  removeBlock(index = this.selected) {
     if (this.scene.blocks.length < 2) return;
-    this.history.change({ blocks: this.scene.blocks.filter((_, i) => i !== this.selected) });
+    if (index < this.selected) this.selected--;
+    this.history.change({ blocks: this.scene.blocks.filter((_, i) => i !== index) });
   }
 
   select(index) {
@@ -322,7 +323,7 @@ class Page {
       $("scrub").max = seconds;
       this.seek(this.time > seconds ? 0 : this.time);
     }
-    this.showTakes();
+    this.showTakes(found.length);
     this.showButtons();
   }
 
@@ -332,15 +333,18 @@ class Page {
     $("save-film").disabled = !this.shown || !this.stage || this.making;
   }
 
-  showTakes() {
-    const { takes } = this.scene, list = $("take-list");
-    list.replaceChildren(...(takes < 2 ? [] : Array.from({ length: takes }, (_, take) => {
+  /** A button a take, which stays what it is, and focused, while takes come and are chosen. */
+  showTakes(found) {
+    const { takes, chosen } = this.scene, list = $("take-list"), wanted = takes > 1 ? takes : 0;
+    while (list.children.length > wanted) list.lastChild.remove();
+    for (let take = list.children.length; take < wanted; take++) {
       const label = document.createElement("label"), input = document.createElement("input");
-      Object.assign(input, { type: "radio", name: "take", value: take, checked: take === this.scene.chosen, disabled: !this.motions.has(this.keyOf(take)) });
+      Object.assign(input, { type: "radio", name: "take", value: take });
       input.addEventListener("change", () => this.choose(take));
       label.append(input, `Take ${take + 1}`);
-      return label;
-    })));
+      list.append(label);
+    }
+    for (const [take, input] of list.querySelectorAll("input").entries()) Object.assign(input, { checked: take === chosen, disabled: take >= found });
   }
 
   choose(take) {

@@ -20,9 +20,20 @@ export class Timeline {
   }
 
   show() {
-    const { blocks } = this.page.scene, { selected } = this.page, focused = this.root.contains(document.activeElement);
+    const { blocks } = this.page.scene, { selected } = this.page;
+    const focused = [...this.list.children].findIndex((item) => item.contains(document.activeElement));
     this.list.replaceChildren(...blocks.map((block, index) => this.item(block, index, selected)));
-    if (focused) this.list.children[selected]?.querySelector("button").focus();
+    if (focused >= 0) this.focus(Math.min(focused, blocks.length - 1));
+  }
+
+  focus(index) {
+    this.list.children[index].querySelector("button").focus();
+  }
+
+  /** To another place, and the focus with it. */
+  move(from, to) {
+    this.page.moveBlock(from, to);
+    this.focus(to);
   }
 
   item({ text, seconds }, index, selected) {
@@ -47,11 +58,12 @@ export class Timeline {
 
   key(event, index) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const { blocks } = this.page.scene;
-    if (step && event.altKey) this.page.moveBlock(index, index + step);
-    else if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
-    else if (step && blocks[index + step]) this.page.select(index + step);
-    else if (event.key === "Delete") this.page.removeBlock();
+    const { blocks } = this.page.scene, next = index + step;
+    if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
+    else if (step && !blocks[next]) ; // at the edge, where Alt and the arrow would leave the page
+    else if (step && event.altKey) this.move(index, next);
+    else if (step) { this.page.select(next); this.focus(next); }
+    else if (event.key === "Delete") this.page.removeBlock(index);
     else return;
     event.preventDefault();
   }
@@ -71,7 +83,7 @@ export class Timeline {
       const places = [...this.list.children].map((item, i) => { const box = item.getBoundingClientRect(); return i === index ? null : (box.left + box.right) / 2; });
       const to = places.filter((place) => place !== null && place < clientX).length;
       if (to === index) this.show();
-      else this.page.moveBlock(index, to);
+      else this.move(index, to);
     };
     const stop = follow(move, up, () => this.show());
   }
