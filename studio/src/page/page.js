@@ -82,7 +82,11 @@ class Page {
 
   bind() {
     const text = $("text");
-    text.addEventListener("input", () => { this.editBlock({ text: text.value }, "text"); this.warnSoon(); });
+    text.addEventListener("input", () => {
+      const long = text.value.length > LIMITS.text;
+      this.editBlock({ text: text.value }, "text");
+      if (long) this.tell(`A sentence has ${LIMITS.text} letters at most; what is beyond is cut off.`, "warning");
+    });
     text.addEventListener("blur", () => this.history.rest());
     text.addEventListener("keydown", (event) => {
       if (event.key === "Enter" && !event.shiftKey && !event.isComposing) { event.preventDefault(); this.make(); }
@@ -336,7 +340,7 @@ class Page {
   /** A button a take, which stays what it is, and focused, while takes come and are chosen. */
   showTakes(found) {
     const { takes, chosen } = this.scene, list = $("take-list"), wanted = takes > 1 ? takes : 0;
-    while (list.children.length > wanted) list.lastChild.remove();
+    while (list.children.length > wanted) list.lastElementChild.remove();
     for (let take = list.children.length; take < wanted; take++) {
       const label = document.createElement("label"), input = document.createElement("input");
       Object.assign(input, { type: "radio", name: "take", value: take });

@@ -57,7 +57,8 @@ export class History {
   /** Take over a change; changes of one `kind` that follow each other are undone together. */
   change(update, kind = null) {
     const next = checked({ ...this.now, ...update });
-    if (!next || JSON.stringify(next) === JSON.stringify(this.now)) return;
+    if (!next) return;
+    if (JSON.stringify(next) === JSON.stringify(this.now)) { this.changed(); return; } // a field may show what was not taken
     if (kind === null || kind !== this.kind) this.past.push(this.now);
     this.past = this.past.slice(-200);
     this.future = [];

@@ -60,11 +60,10 @@ export class Timeline {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     const { blocks } = this.page.scene, next = index + step;
     if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
-    else if (step && !blocks[next]) ; // at the edge, where Alt and the arrow would leave the page
-    else if (step && event.altKey) this.move(index, next);
-    else if (step) { this.page.select(next); this.focus(next); }
+    else if (step && blocks[next] && event.altKey) this.move(index, next);
+    else if (step && blocks[next]) { this.page.select(next); this.focus(next); }
     else if (event.key === "Delete") this.page.removeBlock(index);
-    else return;
+    else if (!step) return; // at an edge Alt and an arrow would leave the page
     event.preventDefault();
   }
 
