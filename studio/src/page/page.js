@@ -33,7 +33,6 @@ class Page {
     this.motions = new Map();
     this.selected = 0;
     this.time = 0;
-    this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
     this.openStage();
     this.timeline = new Timeline($("timeline"), this);
@@ -111,6 +110,7 @@ class Page {
     for (const kind of ["bvh", "glb", "vrma"]) $(`save-${kind}`).addEventListener("click", () => this.save(kind));
     $("save-film").addEventListener("click", () => this.film());
     for (const [name, label] of Object.entries(PATHS)) $("path").add(new Option(label.label, name));
+    $("path").querySelector("[value=draw]").disabled = !this.stage;
     $("path").addEventListener("change", () => this.choosePath($("path").value));
     for (const { language, prompt } of examples(this.settings.languages)) $("examples").add(new Option(`${language}: ${prompt}`, prompt));
     $("examples").addEventListener("change", () => {
@@ -132,13 +132,13 @@ class Page {
   }
 
   key(event) {
-    const typing = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
-    const control = event.ctrlKey || event.metaKey;
-    if (control && event.key.toLowerCase() === "z" && !typing) { event.preventDefault(); if (event.shiftKey) this.history.redo(); else this.history.undo(); }
-    else if (control && event.key.toLowerCase() === "y" && !typing) { event.preventDefault(); this.history.redo(); }
-    else if (event.key === " " && !typing && event.target.tagName !== "BUTTON") { event.preventDefault(); this.setPlaying(!this.playing); }
+    const on = (selector) => event.target.closest?.(selector);
+    const undone = (event.ctrlKey || event.metaKey) && !on("textarea, input[type=number]") && event.key.toLowerCase(); // there the browser's own
+    if (undone === "y" || (undone === "z" && event.shiftKey)) { event.preventDefault(); this.history.redo(); }
+    else if (undone === "z") { event.preventDefault(); this.history.undo(); }
+    else if (event.key === " " && !on("input, textarea, select, button, summary, dialog")) { event.preventDefault(); this.setPlaying(!this.playing); }
     else if (event.key === "Escape" && this.drawing) this.stopDrawing();
-    else if (event.key === "Escape" && !event.isComposing && !event.target.closest?.("dialog")) this.stop();
+    else if (event.key === "Escape" && !event.isComposing && !on("dialog")) this.stop();
   }
 
   editBlock(update, kind = null) {
@@ -212,7 +212,9 @@ class Page {
     $("later").disabled = this.selected === blocks.length - 1;
     $("undo").disabled = !this.history.past.length;
     $("redo").disabled = !this.history.future.length;
-    if (!this.drawing) $("path").value = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
+    const way = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
+    $("path").querySelector("[value=drawn]").disabled = way !== "drawn";
+    if (!this.drawing) $("path").value = way;
     this.timeline?.show();
     clearTimeout(this.linkTimer); // browsers count how often an address changes
     this.linkTimer = setTimeout(() => history.replaceState(null, "", this.link()), 300);
@@ -322,6 +324,7 @@ class Page {
       this.stage?.show(found, this.choice);
       this.stage?.showPath(this.scene.path);
       $("stage").setAttribute("aria-label", `${found.length > 1 ? `${found.length} bodies; take ${this.choice + 1} is chosen` : "A body"}: ${found[this.choice].text}`);
+      if (!before) this.setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
       if (!before || before.length !== found.length) this.stage?.resetView();
       const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
       $("scrub").max = seconds;
@@ -334,7 +337,8 @@ class Page {
   /** What can be done with a motion, where there is one. */
   showButtons() {
     for (const id of ["save-bvh", "save-glb", "save-vrma", "use-motion"]) $(id).disabled = !this.shown;
-    $("save-film").disabled = !this.shown || !this.stage || this.making;
+    $("play").disabled = !this.shown || !this.stage;
+    $("save-film").disabled = $("play").disabled || this.making;
   }
 
   /** A button a take, which stays what it is, and focused, while takes come and are chosen. */
@@ -356,9 +360,8 @@ class Page {
   }
 
   setPlaying(playing) {
-    this.playing = playing;
-    $("play").textContent = playing ? "Pause" : "Play";
-    $("play").setAttribute("aria-pressed", String(playing));
+    this.playing = playing && Boolean(this.shown && this.stage);
+    $("play").textContent = this.playing ? "Pause" : "Play";
   }
 
   seek(time) {
@@ -432,7 +435,7 @@ class Page {
 
   choosePath(name) {
     if (name === "draw") {
-      if (!this.stage) return;
+      this.playsAfter = this.playing;
       this.drawing = true;
       this.setPlaying(false);
       this.stage.controls.enabled = false;
@@ -464,7 +467,7 @@ class Page {
     this.stage.resetView();
     this.stage.showPath(this.scene.path);
     document.body.classList.remove("drawing");
-    this.setPlaying(true);
+    this.setPlaying(this.playsAfter);
     this.changed();
   }
 
