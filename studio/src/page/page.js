@@ -9,7 +9,7 @@ import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
 import { readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
-import { fromLink, History, LIMITS, START, toLink, within } from "./scene.js";
+import { fromLink, History, LIMITS, spanOf, START, toLink, within } from "./scene.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
@@ -70,7 +70,7 @@ class Page {
     const frame = (now) => {
       const step = (now - last) / 1000;
       last = now;
-      if (this.shown && this.playing && this.stage.seconds > 0) this.seek((this.time + Math.min(step, 0.25)) % (this.stage.seconds + 0.5));
+      if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5));
       this.stage.draw($("follow").checked && !this.drawing, step);
       requestAnimationFrame(frame);
     };
@@ -161,20 +161,15 @@ class Page {
 
   /** The block under the playhead becomes two. */
   cutBlock() {
-    let start = 0;
-    for (const [i, { text, seconds }] of this.scene.blocks.entries()) {
-      const first = Math.round((this.time - start) * 10) / 10, second = Math.round((seconds - first) * 10) / 10;
-      if (this.time < start + seconds) {
-        if (first < LIMITS.seconds[0] || second < LIMITS.seconds[0]) break;
-        const blocks = [...this.scene.blocks];
-        blocks.splice(i, 1, { text, seconds: first }, { text, seconds: second });
-        this.selected = i + 1;
-        this.history.change({ blocks });
-        return;
-      }
-      start += seconds;
+    const blocks = [...this.scene.blocks], [index, into] = this.timeline.at(this.place), { text, seconds } = blocks[index];
+    const first = Math.round(into * 10) / 10, second = Math.round((seconds - first) * 10) / 10;
+    if (Math.min(first, second) < LIMITS.seconds[0]) {
+      this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${LIMITS.seconds[0]} seconds or more.`, "warning");
+      return;
     }
-    this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${LIMITS.seconds[0]} seconds or more.`, "warning");
+    blocks.splice(index, 1, { text, seconds: first }, { text, seconds: second });
+    this.selected = index + 1;
+    this.history.change({ blocks });
   }
 
   moveBlock(from, to) {
@@ -265,8 +260,10 @@ class Page {
         this.timings.first ??= performance.now();
       }
       const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take, asked)));
+      const long = secondsOf(all), said = scene.clip ? "With the clip it lasts" : "What is said takes";
+      const other = Math.abs(long - spanOf(scene.blocks)) > 0.1 ? ` ${said} ${long.toFixed(1)} s.` : "";
       const took = `ade in ${(all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1)} s.`;
-      this.tell((made ? `M${took}` : `Nothing has changed since it was m${took}`) + (takes > 1 ? " Click a take to choose it." : ""));
+      this.tell((made ? `M${took}` : `Nothing has changed since it was m${took}`) + other + (takes > 1 ? " Click a take to choose it." : ""));
       await this.warn();
       if (this.keyOf(0) !== this.keyOf(0, asked)) this.tell(CHANGED);
     }, () => this.client.stop());
@@ -326,10 +323,9 @@ class Page {
       $("stage").setAttribute("aria-label", `${found.length > 1 ? `${found.length} bodies; take ${this.choice + 1} is chosen` : "A body"}: ${found[this.choice].text}`);
       if (!before) this.setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
       if (!before || before.length !== found.length) this.stage?.resetView();
-      const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
-      $("scrub").max = seconds;
-      this.seek(this.time > seconds ? 0 : this.time);
+      $("scrub").max = this.seconds;
     }
+    this.seek(this.time > this.seconds ? 0 : this.time);
     this.showTakes(found.length);
     this.showButtons();
   }
@@ -367,11 +363,23 @@ class Page {
   seek(time) {
     this.time = time;
     this.stage?.placeAt(time);
-    const seconds = this.stage?.seconds ?? 0, now = Math.min(time, seconds);
+    const { seconds } = this, now = Math.min(time, seconds);
     $("scrub").value = now;
     $("scrub").setAttribute("aria-valuetext", `${now.toFixed(1)} seconds`);
     $("clock").textContent = `${now.toFixed(2)} / ${seconds.toFixed(2)} s`;
-    this.timeline?.showPlayhead(now / Math.max(seconds, 0.1));
+    this.timeline?.showPlayhead(this.place);
+  }
+
+  /** Of the longest take that is shown. */
+  get seconds() {
+    return secondsOf(this.shown ?? []);
+  }
+
+  /** Which of the timeline's seconds the playhead is at. What is kept of a clip lies outside them, and sentences that take other seconds than theirs fill them. */
+  get place() {
+    const { kept: [before, after] = [0, 0] } = this.shown?.[this.choice] ?? {};
+    const gone = (this.time - before) / Math.max(this.seconds - before - after, 0.1);
+    return Math.min(Math.max(gone, 0), 1) * spanOf(this.scene.blocks);
   }
 
   tell(message, kind = "note") {
@@ -552,7 +560,7 @@ class Page {
     this.setPlaying(false);
     await this.during(async () => {
       this.tell("Filming in real time …");
-      const { blob, kind } = await recordFilm($("stage"), this.stage.seconds, (time) => { this.seek(time); return !this.stopped; });
+      const { blob, kind } = await recordFilm($("stage"), this.seconds, (time) => { this.seek(time); return !this.stopped; });
       if (this.stopped) { this.tell("Stopped; no film is saved."); return; }
       download(blob, this.fileName(kind));
       this.tell(`Saved ${this.fileName(kind)}.`);
@@ -575,6 +583,8 @@ class Page {
     }
   }
 }
+
+const secondsOf = (motions) => Math.max(0, ...motions.map(({ frames, fps }) => (frames - 1) / fps));
 
 function download(blob, name) {
   const link = document.createElement("a");

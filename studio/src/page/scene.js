@@ -14,6 +14,9 @@ export const within = (value, [low, high], otherwise) => {
 };
 const whole = (value, range, otherwise) => Math.round(within(value, range, otherwise));
 
+/** Seconds that sentences have. */
+export const spanOf = (blocks) => blocks.reduce((sum, { seconds }) => sum + seconds, 0);
+
 /** A scene with nothing in it but what a scene has; null where it is none. */
 export function checked(raw) {
   if (typeof raw !== "object" || raw === null || !Array.isArray(raw.blocks) || !raw.blocks.length) return null;

@@ -85,11 +85,6 @@ export class Stage {
     return { mesh, bones, colours };
   }
 
-  /** Seconds of the longest motion. */
-  get seconds() {
-    return Math.max(0, ...(this.motions ?? []).map(({ frames, fps }) => (frames - 1) / fps));
-  }
-
   /** Put every body where it is at a time. */
   placeAt(time) {
     this.time = time;

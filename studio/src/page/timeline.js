@@ -1,6 +1,6 @@
 // The sentences over time: drag one to move it, its end to stretch it; keys do the same.
 
-import { LIMITS } from "./scene.js";
+import { LIMITS, spanOf } from "./scene.js";
 
 const STEP = 0.5; // seconds a key press
 
@@ -13,10 +13,6 @@ export class Timeline {
     this.head = document.createElement("div");
     this.head.className = "playhead";
     root.append(this.list, this.head);
-  }
-
-  get seconds() {
-    return this.page.scene.blocks.reduce((sum, block) => sum + block.seconds, 0);
   }
 
   show() {
@@ -90,7 +86,7 @@ export class Timeline {
   stretch(event, index) {
     event.preventDefault();
     const from = event.clientX, { seconds } = this.page.scene.blocks[index];
-    const perPixel = this.seconds / this.list.clientWidth;
+    const perPixel = spanOf(this.page.scene.blocks) / this.list.clientWidth;
     const stop = follow(
       ({ clientX }) => {
         const wanted = Math.min(Math.max(seconds + (clientX - from) * perPixel, LIMITS.seconds[0]), LIMITS.seconds[1]);
@@ -101,9 +97,19 @@ export class Timeline {
     );
   }
 
-  /** @param {number} share of the time that has gone, 0 to 1 */
-  showPlayhead(share) {
-    this.head.style.left = `${100 * share}%`;
+  /** Which sentence a second is in, and how far. */
+  at(second) {
+    const { blocks } = this.page.scene;
+    let index = 0;
+    for (; index < blocks.length - 1 && second >= blocks[index].seconds; index++) second -= blocks[index].seconds;
+    return [index, second];
+  }
+
+  /** Where the sentences are seen: short ones are wider than their share. */
+  showPlayhead(second) {
+    const [index, into] = this.at(second), { offsetLeft, offsetWidth } = this.list.children[index];
+    const left = offsetLeft + (into / this.page.scene.blocks[index].seconds) * offsetWidth;
+    this.head.style.left = `${(100 * left) / this.list.clientWidth}%`;
   }
 }
 
