@@ -260,8 +260,8 @@ class Page {
         this.timings.first ??= performance.now();
       }
       const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take, asked)));
-      const long = secondsOf(all), said = scene.clip ? "With the clip it lasts" : "What is said takes";
-      const other = Math.abs(long - spanOf(scene.blocks)) > 0.1 ? ` ${said} ${long.toFixed(1)} s.` : "";
+      const long = secondsOf(all), why = scene.clip ? "With the clip" : "By its words";
+      const other = Math.abs(long - spanOf(scene.blocks)) > 0.1 ? ` ${why} it lasts ${long.toFixed(1)} s.` : "";
       const took = `ade in ${(all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1)} s.`;
       this.tell((made ? `M${took}` : `Nothing has changed since it was m${took}`) + other + (takes > 1 ? " Click a take to choose it." : ""));
       await this.warn();
