@@ -16,6 +16,7 @@ import { Timeline } from "./timeline.js";
 const $ = (id) => document.getElementById(id);
 const REMEMBERED = 24; // motions
 const WALK = 1.1; // m/s
+const TURN = 0.1; // radians a key press
 const CHANGED = "Changed: Enter or Make makes it.";
 
 export function openPage() {
@@ -439,6 +440,12 @@ class Page {
       }
       pressed = null;
     });
+    canvas.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: [-TURN, 0], ArrowRight: [TURN, 0], ArrowUp: [0, TURN], ArrowDown: [0, -TURN], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9] }[event.key];
+      if (!way || this.drawing || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      this.stage?.turn(...way);
+    });
   }
 
   choosePath(name) {
@@ -506,7 +513,8 @@ class Page {
   async openClip(file) {
     try {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
-      this.takeClip(readClip(file.name, new Uint8Array(await file.arrayBuffer()), this.settings.profiles), file.name);
+      const bytes = await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); });
+      this.takeClip(readClip(file.name, new Uint8Array(bytes), this.settings.profiles), file.name);
       this.tell(`${file.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.`);
     } catch (error) {
       this.tell(`${file.name}: ${error.message}`, "error");

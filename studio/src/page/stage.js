@@ -3,7 +3,7 @@
 import {
   AmbientLight, Bone, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog,
   HemisphereLight, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Vector2,
+  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Spherical, Vector2,
   Vector3, WebGLRenderer, PCFShadowMap, SRGBColorSpace,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -161,6 +161,13 @@ export class Stage {
       this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).setLength(Math.max(4.1, away)));
     }
     this.controls.update();
+  }
+
+  /** The camera about what it looks at: by radians aside and up, and that many times as far; the controls keep its limits. */
+  turn(aside, up, farther = 1) {
+    const { target } = this.controls, way = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    way.set(way.radius * farther, way.phi - up, way.theta + aside).makeSafe();
+    this.camera.position.setFromSpherical(way).add(target);
   }
 
   /** Draw; the camera goes along with the chosen body. */
