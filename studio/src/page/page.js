@@ -65,6 +65,7 @@ class Page {
       $("no-stage").hidden = false; // the status line tells other things soon
       return;
     }
+    $("stage").tabIndex = 0;
     new ResizeObserver(() => this.stage.resize()).observe($("stage").parentElement);
     this.stage.resize();
     let last = performance.now();
@@ -91,8 +92,8 @@ class Page {
     text.addEventListener("keydown", (event) => {
       if (event.key === "Enter" && !event.shiftKey && !event.isComposing) { event.preventDefault(); this.make(); }
     });
-    $("seconds").addEventListener("change", () => this.editBlock({ seconds: $("seconds").valueAsNumber }));
-    $("seed").addEventListener("change", () => this.history.change({ seed: $("seed").valueAsNumber }));
+    $("seconds").addEventListener("change", () => this.editBlock({ seconds: within($("seconds").valueAsNumber, LIMITS.seconds, this.scene.blocks[this.selected].seconds) }));
+    $("seed").addEventListener("change", () => this.history.change({ seed: within($("seed").valueAsNumber, [0, LIMITS.seed], this.scene.seed) }));
     $("takes").addEventListener("change", () => this.history.change({ takes: $("takes").value, chosen: 0 }));
     $("dice").addEventListener("click", () => { this.history.change({ seed: Math.floor(Math.random() * 100000) }); this.make(); });
     $("make").addEventListener("click", () => this.make());
@@ -243,13 +244,14 @@ class Page {
       $("text").focus();
       return;
     }
-    const kept = { continue: [scene.clip?.keep, 0], between: [scene.clip?.keep, scene.clip?.keep] }[scene.clip?.mode] ?? [0, 0];
+    const { mode, keep } = scene.clip ?? {}, kept = { continue: [keep, 0], between: [keep, keep] }[mode] ?? [0, 0];
     await this.during(async () => {
       let made = 0;
       this.tell(takes > 1 ? `Making ${takes} takes …` : "Making the motion …");
       for (let take = 0; take < takes; take++) {
-        const key = this.keyOf(take, asked), which = takes > 1 ? `take ${take + 1}` : "";
-        if (this.motions.has(key)) continue;
+        const key = this.keyOf(take, asked), which = takes > 1 ? `take ${take + 1} …` : "", known = this.motions.get(key);
+        this.motions.delete(key); // what is asked for again is forgotten last
+        if (known) { this.motions.set(key, known); continue; }
         $("progress").textContent = which;
         const start = performance.now();
         const motion = await this.client.call("make", { scene, seed: seed + take }, (frames) => { $("progress").textContent = `${which} ${(frames / FPS).toFixed(1)} s`; });
@@ -263,8 +265,8 @@ class Page {
       const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take, asked)));
       const long = secondsOf(all), why = scene.clip ? "With the clip" : "By its words";
       const other = Math.abs(long - spanOf(scene.blocks)) > 0.1 ? ` ${why} it lasts ${long.toFixed(1)} s.` : "";
-      const took = `ade in ${(all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1)} s.`;
-      this.tell((made ? `M${took}` : `Nothing has changed since it was m${took}`) + other + (takes > 1 ? " Click a take to choose it." : ""));
+      const took = (all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1), choose = takes > 1 ? " Click a take to choose it." : "";
+      this.tell(`${made ? "Made" : "Nothing has changed since it was made"} in ${took} s.${other}${choose}`);
       await this.warn();
       if (this.keyOf(0) !== this.keyOf(0, asked)) this.tell(CHANGED);
     }, () => this.client.stop());
