@@ -2,7 +2,7 @@
 
 const KINDS = ["video/mp4;codecs=avc1.42E01F", "video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 
-/** Plays `seconds` once by calling `seek` and gives { blob, kind }. */
+/** Plays `seconds` once by calling `seek`, as long as that gives true, and gives { blob, kind }. */
 export async function recordFilm(canvas, seconds, seek) {
   const type = globalThis.MediaRecorder && KINDS.find((kind) => MediaRecorder.isTypeSupported(kind));
   if (!type || !canvas.captureStream) throw new Error("This browser records no films.");
@@ -15,8 +15,7 @@ export async function recordFilm(canvas, seconds, seek) {
   await new Promise((resolve) => {
     const step = (now) => {
       const time = (now - began) / 1000;
-      seek(Math.min(Math.max(time, 0), seconds));
-      if (time < seconds + 0.2) requestAnimationFrame(step);
+      if (seek(Math.min(Math.max(time, 0), seconds)) && time < seconds + 0.2) requestAnimationFrame(step);
       else resolve();
     };
     requestAnimationFrame(step);

@@ -4,45 +4,72 @@
 import { handler } from "../worker.js";
 
 export class Client {
+  waiting = new Map();
+  count = 0;
+  workers = [];
+
   /** @param {string} script the page's own @param {object} settings @param {object} parts */
   static async open(script, settings, parts) {
-    const client = new Client();
-    try {
-      const address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-      client.worker = new Worker(address);
-      client.worker.onmessage = ({ data }) => client.heard(data);
-      const failed = new Promise((_, reject) => { client.worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
-      const { wasm, graph, adapted, weights } = parts;
-      const opened = Promise.race([client.call("open", { settings, parts }), failed]);
-      const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4
-        ? client.getHelp(address, { parts: { wasm, graph, adapted, weights } }).catch(() => null)
-        : null;
-      await opened;
-      helped?.then((port) => port && client.call("helper", { port }, [port]));
-    } catch {
-      client.worker?.terminate();
-      client.worker = null;
-      client.answer = handler();
-      await client.call("open", { settings, parts });
-    }
+    const client = new Client(), address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+    Object.assign(client, { address, settings, parts });
+    client.opened = client.start();
+    await client.opened;
     return client;
   }
 
-  waiting = new Map();
-  count = 0;
+  async start() {
+    const { settings, parts } = this;
+    try {
+      const worker = this.worker = this.begin();
+      worker.onmessage = ({ data }) => this.heard(data);
+      const failed = new Promise((_, reject) => { worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
+      const opened = Promise.race([this.send("open", { settings, parts }), failed]);
+      const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
+      await opened;
+      helped?.then((port) => port && this.send("helper", { port }, [port]));
+    } catch {
+      this.worker?.terminate();
+      this.worker = null;
+      this.answer = handler();
+      await this.send("open", { settings, parts });
+    }
+  }
+
+  begin() {
+    const worker = new Worker(this.address);
+    this.workers.push(worker);
+    return worker;
+  }
+
+  /** What is under way fails, and the workers begin anew: one that computes hears nothing until it has done. */
+  stop() {
+    if (!this.worker) return;
+    for (const worker of this.workers.splice(0)) {
+      worker.onmessage = null;
+      worker.terminate();
+    }
+    for (const { reject } of this.waiting.values()) reject(new Error("stopped"));
+    this.waiting.clear();
+    this.opened = this.start();
+  }
 
   /** A second worker that takes half of the work; the port to it. */
-  async getHelp(address, model) {
-    const worker = new Worker(address), { port1, port2 } = new MessageChannel();
+  async getHelp({ wasm, graph, adapted, weights }) {
+    const worker = this.begin(), { port1, port2 } = new MessageChannel();
     await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }) => (data.error ? reject(new Error(data.error)) : resolve());
       worker.onerror = reject;
-      worker.postMessage({ id: 0, call: "help", ...model, port: port2 }, [port2]);
+      worker.postMessage({ id: 0, call: "help", parts: { wasm, graph, adapted, weights }, port: port2 }, [port2]);
     });
     return port1;
   }
 
-  call(name, args, transfer = [], told = null) {
+  async call(name, args, told = null) {
+    await this.opened;
+    return this.send(name, args, [], told);
+  }
+
+  send(name, args, transfer = [], told = null) {
     if (!this.worker) return this.answer(name, args, told ?? (() => {}));
     return new Promise((resolve, reject) => {
       this.waiting.set(++this.count, { resolve, reject, told });

@@ -9,13 +9,15 @@ import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
 import { readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
-import { fromLink, History, LIMITS, START, toLink } from "./scene.js";
+import { fromLink, History, LIMITS, spanOf, START, toLink, within } from "./scene.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
 const $ = (id) => document.getElementById(id);
 const REMEMBERED = 24; // motions
 const WALK = 1.1; // m/s
+const TURN = 0.1; // radians a key press
+const CHANGED = "Changed: Enter or Make makes it.";
 
 export function openPage() {
   globalThis.studio = new Page(); // for scripts and tests
@@ -32,7 +34,6 @@ class Page {
     this.motions = new Map();
     this.selected = 0;
     this.time = 0;
-    this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
     this.openStage();
     this.timeline = new Timeline($("timeline"), this);
@@ -64,13 +65,14 @@ class Page {
       $("no-stage").hidden = false; // the status line tells other things soon
       return;
     }
+    $("stage").tabIndex = 0;
     new ResizeObserver(() => this.stage.resize()).observe($("stage").parentElement);
     this.stage.resize();
     let last = performance.now();
     const frame = (now) => {
       const step = (now - last) / 1000;
       last = now;
-      if (this.shown && this.playing && this.stage.seconds > 0) this.seek((this.time + Math.min(step, 0.25)) % (this.stage.seconds + 0.5));
+      if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5));
       this.stage.draw($("follow").checked && !this.drawing, step);
       requestAnimationFrame(frame);
     };
@@ -81,16 +83,21 @@ class Page {
 
   bind() {
     const text = $("text");
-    text.addEventListener("input", () => { this.editBlock({ text: text.value }, "text"); this.warnSoon(); });
+    text.addEventListener("input", () => {
+      const long = text.value.length > LIMITS.text;
+      this.editBlock({ text: text.value }, "text");
+      if (long) this.tell(`A sentence has ${LIMITS.text} letters at most; what is beyond is cut off.`, "warning");
+    });
     text.addEventListener("blur", () => this.history.rest());
     text.addEventListener("keydown", (event) => {
       if (event.key === "Enter" && !event.shiftKey && !event.isComposing) { event.preventDefault(); this.make(); }
     });
-    $("seconds").addEventListener("change", () => this.editBlock({ seconds: $("seconds").valueAsNumber }));
-    $("seed").addEventListener("change", () => this.history.change({ seed: $("seed").valueAsNumber }));
+    $("seconds").addEventListener("change", () => this.editBlock({ seconds: within($("seconds").valueAsNumber, LIMITS.seconds, this.scene.blocks[this.selected].seconds) }));
+    $("seed").addEventListener("change", () => this.history.change({ seed: within($("seed").valueAsNumber, [0, LIMITS.seed], this.scene.seed) }));
     $("takes").addEventListener("change", () => this.history.change({ takes: $("takes").value, chosen: 0 }));
     $("dice").addEventListener("click", () => { this.history.change({ seed: Math.floor(Math.random() * 100000) }); this.make(); });
     $("make").addEventListener("click", () => this.make());
+    $("stop").addEventListener("click", () => this.stop());
     $("add").addEventListener("click", () => this.addBlock());
     $("cut").addEventListener("click", () => this.cutBlock());
     $("earlier").addEventListener("click", () => this.moveBlock(this.selected, this.selected - 1));
@@ -105,6 +112,7 @@ class Page {
     for (const kind of ["bvh", "glb", "vrma"]) $(`save-${kind}`).addEventListener("click", () => this.save(kind));
     $("save-film").addEventListener("click", () => this.film());
     for (const [name, label] of Object.entries(PATHS)) $("path").add(new Option(label.label, name));
+    $("path").querySelector("[value=draw]").disabled = !this.stage;
     $("path").addEventListener("change", () => this.choosePath($("path").value));
     for (const { language, prompt } of examples(this.settings.languages)) $("examples").add(new Option(`${language}: ${prompt}`, prompt));
     $("examples").addEventListener("change", () => {
@@ -126,12 +134,13 @@ class Page {
   }
 
   key(event) {
-    const typing = /^(INPUT|TEXTAREA|SELECT)$/.test(event.target.tagName);
-    const control = event.ctrlKey || event.metaKey;
-    if (control && event.key.toLowerCase() === "z" && !typing) { event.preventDefault(); if (event.shiftKey) this.history.redo(); else this.history.undo(); }
-    else if (control && event.key.toLowerCase() === "y" && !typing) { event.preventDefault(); this.history.redo(); }
-    else if (event.key === " " && !typing && event.target.tagName !== "BUTTON") { event.preventDefault(); this.setPlaying(!this.playing); }
+    const on = (selector) => event.target.closest?.(selector);
+    const undone = (event.ctrlKey || event.metaKey) && !on("textarea, input[type=number]") && event.key.toLowerCase(); // there the browser's own
+    if (undone === "y" || (undone === "z" && event.shiftKey)) { event.preventDefault(); this.history.redo(); }
+    else if (undone === "z") { event.preventDefault(); this.history.undo(); }
+    else if (event.key === " " && !on("input, textarea, select, button, summary, dialog")) { event.preventDefault(); this.setPlaying(!this.playing); }
     else if (event.key === "Escape" && this.drawing) this.stopDrawing();
+    else if (event.key === "Escape" && !event.isComposing && !on("dialog")) this.stop();
   }
 
   editBlock(update, kind = null) {
@@ -154,20 +163,15 @@ class Page {
 
   /** The block under the playhead becomes two. */
   cutBlock() {
-    let start = 0;
-    for (const [i, { text, seconds }] of this.scene.blocks.entries()) {
-      const first = Math.round((this.time - start) * 10) / 10, second = Math.round((seconds - first) * 10) / 10;
-      if (this.time < start + seconds) {
-        if (first < LIMITS.seconds[0] || second < LIMITS.seconds[0]) break;
-        const blocks = [...this.scene.blocks];
-        blocks.splice(i, 1, { text, seconds: first }, { text, seconds: second });
-        this.selected = i + 1;
-        this.history.change({ blocks });
-        return;
-      }
-      start += seconds;
+    const blocks = [...this.scene.blocks], [index, into] = this.timeline.at(this.place), { text, seconds } = blocks[index];
+    const first = Math.round(into * 10) / 10, second = Math.round((seconds - first) * 10) / 10;
+    if (Math.min(first, second) < LIMITS.seconds[0]) {
+      this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${LIMITS.seconds[0]} seconds or more.`, "warning");
+      return;
     }
-    this.tell(`Move the playhead to where a sentence is to be cut; each part takes ${LIMITS.seconds[0]} seconds or more.`, "warning");
+    blocks.splice(index, 1, { text, seconds: first }, { text, seconds: second });
+    this.selected = index + 1;
+    this.history.change({ blocks });
   }
 
   moveBlock(from, to) {
@@ -178,9 +182,10 @@ class Page {
     this.history.change({ blocks });
   }
 
-  removeBlock() {
+  removeBlock(index = this.selected) {
     if (this.scene.blocks.length < 2) return;
-    this.history.change({ blocks: this.scene.blocks.filter((_, i) => i !== this.selected) });
+    if (index < this.selected) this.selected--;
+    this.history.change({ blocks: this.scene.blocks.filter((_, i) => i !== index) });
   }
 
   select(index) {
@@ -204,7 +209,9 @@ class Page {
     $("later").disabled = this.selected === blocks.length - 1;
     $("undo").disabled = !this.history.past.length;
     $("redo").disabled = !this.history.future.length;
-    if (!this.drawing) $("path").value = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
+    const way = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
+    $("path").querySelector("[value=drawn]").disabled = way !== "drawn";
+    if (!this.drawing) $("path").value = way;
     this.timeline?.show();
     clearTimeout(this.linkTimer); // browsers count how often an address changes
     this.linkTimer = setTimeout(() => history.replaceState(null, "", this.link()), 300);
@@ -215,55 +222,91 @@ class Page {
 
   // ---------------------------------------------------------------- motions
 
-  /** What a take depends on. */
-  keyOf(take) {
-    const { blocks, path, seed } = this.scene;
-    return JSON.stringify([blocks, path, this.clip ? this.clipChoice() : null, seed + take]);
+  /** All that takes are made of, as it is now: what is made meanwhile of it is filed under it, whatever is changed. */
+  get asked() {
+    const { blocks, path, seed, takes } = this.scene;
+    return { blocks, path, seed, takes, clip: this.clip ? this.clipChoice() : null };
+  }
+
+  /** What a take depends on; a clip's number stands for its motion. */
+  keyOf(take, { blocks, path, clip, seed } = this.asked) {
+    return JSON.stringify([blocks, path, clip && { ...clip, motion: null }, seed + take]);
   }
 
   async make() {
     if (!this.client) return;
     if (this.making) { this.again = true; return; }
-    const { blocks, takes, seed, path } = this.scene;
-    const empty = blocks.findIndex(({ text }) => !text.trim());
-    if (empty >= 0 && !this.clip) {
+    const { asked } = this, { takes, seed, ...scene } = asked;
+    const empty = scene.blocks.findIndex(({ text }) => !text.trim());
+    if (empty >= 0 && !scene.clip) {
       this.select(empty);
       this.tell("Say in a few words what the body does.", "warning");
       $("text").focus();
       return;
     }
-    this.making = true;
-    document.body.classList.add("making");
-    $("make").setAttribute("aria-busy", "true");
-    const began = performance.now();
-    let made = 0;
-    try {
+    const { mode, keep } = scene.clip ?? {}, kept = { continue: [keep, 0], between: [keep, keep] }[mode] ?? [0, 0];
+    await this.during(async () => {
+      let made = 0;
+      this.tell(takes > 1 ? `Making ${takes} takes …` : "Making the motion …");
       for (let take = 0; take < takes; take++) {
-        const key = this.keyOf(take);
-        if (this.motions.has(key)) continue;
-        const what = takes > 1 ? `Making take ${take + 1} of ${takes} …` : "Making the motion …";
-        this.tell(what);
-        const scene = { blocks, path, clip: this.clip ? this.clipChoice(true) : null };
+        const key = this.keyOf(take, asked), which = takes > 1 ? `take ${take + 1} …` : "", known = this.motions.get(key);
+        this.motions.delete(key); // what is asked for again is forgotten last
+        if (known) { this.motions.set(key, known); continue; }
+        $("progress").textContent = which;
         const start = performance.now();
-        const motion = await this.client.call("make", { scene, seed: seed + take }, [], (frames) => this.tell(`${what} ${(frames / FPS).toFixed(1)} s`));
-        this.motions.set(key, motion);
+        const motion = await this.client.call("make", { scene, seed: seed + take }, (frames) => { $("progress").textContent = `${which} ${(frames / FPS).toFixed(1)} s`; });
+        this.timings.motion = performance.now() - start;
+        this.motions.set(key, { ...motion, kept, took: this.timings.motion });
         if (this.motions.size > REMEMBERED) this.motions.delete(this.motions.keys().next().value);
         made++;
-        this.timings.motion = performance.now() - start;
         this.showMotions();
         this.timings.first ??= performance.now();
       }
-      const choose = takes > 1 ? " Click a take to choose it." : "";
-      this.tell((made ? `Made in ${((performance.now() - began) / 1000).toFixed(1)} s.` : "Nothing has changed since it was made.") + choose);
+      const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take, asked)));
+      const long = secondsOf(all), why = scene.clip ? "With the clip" : "By its words";
+      const other = Math.abs(long - spanOf(scene.blocks)) > 0.1 ? ` ${why} it lasts ${long.toFixed(1)} s.` : "";
+      const took = (all.reduce((sum, motion) => sum + motion.took, 0) / 1000).toFixed(1), choose = takes > 1 ? " Click a take to choose it." : "";
+      this.tell(`${made ? "Made" : "Nothing has changed since it was made"} in ${took} s.${other}${choose}`);
       await this.warn();
+      if (this.keyOf(0) !== this.keyOf(0, asked)) this.tell(CHANGED);
+    }, () => this.client.stop());
+  }
+
+  /** One thing at a time that takes long: told at its begin and its end, ended early by `halt`. */
+  async during(work, halt = () => {}) {
+    this.halt = halt;
+    this.stopped = false;
+    this.setMaking(true);
+    try {
+      await work();
     } catch (error) {
-      this.tell(error.message, "error");
-    } finally {
-      this.making = false;
-      document.body.classList.remove("making");
-      $("make").removeAttribute("aria-busy");
-      if (this.again) { this.again = false; this.make(); }
+      if (this.stopped) this.tell("Stopped; takes that are finished stay.");
+      else this.tell(error.message, "error");
     }
+    await this.client?.opened; // a stopped one begins anew
+    this.setMaking(false);
+    if (this.again) { this.again = false; this.make(); }
+  }
+
+  setMaking(making) {
+    this.making = making;
+    document.body.classList.toggle("making", making);
+    $("make").setAttribute("aria-busy", String(making));
+    this.offerStop(making);
+    this.showButtons();
+  }
+
+  offerStop(offered) {
+    if (!offered && document.activeElement === $("stop")) $("make").focus(); // the button goes
+    $("stop").hidden = !offered;
+  }
+
+  stop() {
+    if (!this.making || this.stopped) return;
+    this.stopped = true;
+    this.again = false;
+    this.offerStop(false);
+    this.halt();
   }
 
   /** The motions of the scene that are there; those of before, told stale, where none is. */
@@ -273,7 +316,7 @@ class Page {
     const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
     const stale = Boolean(this.shown) && !found.length;
     document.body.classList.toggle("stale", stale);
-    if (stale && !this.making && !this.drawing) this.tell("Changed: Enter or Make makes it.");
+    if (stale && !this.making && !this.drawing) this.tell(CHANGED);
     if (found.length) {
       const before = this.shown;
       this.shown = found;
@@ -281,24 +324,34 @@ class Page {
       this.stage?.show(found, this.choice);
       this.stage?.showPath(this.scene.path);
       $("stage").setAttribute("aria-label", `${found.length > 1 ? `${found.length} bodies; take ${this.choice + 1} is chosen` : "A body"}: ${found[this.choice].text}`);
+      if (!before) this.setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
       if (!before || before.length !== found.length) this.stage?.resetView();
-      const seconds = Math.max(...found.map(({ frames, fps }) => (frames - 1) / fps));
-      $("scrub").max = seconds;
-      this.seek(this.time > seconds ? 0 : this.time);
+      $("scrub").max = this.seconds;
     }
-    this.showTakes();
-    for (const id of ["save-bvh", "save-glb", "save-vrma", "save-film"]) $(id).disabled = !this.shown;
+    this.seek(this.time > this.seconds ? 0 : this.time);
+    this.showTakes(found.length);
+    this.showButtons();
   }
 
-  showTakes() {
-    const { takes } = this.scene, list = $("take-list");
-    list.replaceChildren(...(takes < 2 ? [] : Array.from({ length: takes }, (_, take) => {
+  /** What can be done with a motion, where there is one. */
+  showButtons() {
+    for (const id of ["save-bvh", "save-glb", "save-vrma", "use-motion"]) $(id).disabled = !this.shown;
+    $("play").disabled = !this.shown || !this.stage;
+    $("save-film").disabled = $("play").disabled || this.making;
+  }
+
+  /** A button a take, which stays what it is, and focused, while takes come and are chosen. */
+  showTakes(found) {
+    const { takes, chosen } = this.scene, list = $("take-list"), wanted = takes > 1 ? takes : 0;
+    while (list.children.length > wanted) list.lastElementChild.remove();
+    for (let take = list.children.length; take < wanted; take++) {
       const label = document.createElement("label"), input = document.createElement("input");
-      Object.assign(input, { type: "radio", name: "take", value: take, checked: take === this.scene.chosen, disabled: !this.motions.has(this.keyOf(take)) });
+      Object.assign(input, { type: "radio", name: "take", value: take });
       input.addEventListener("change", () => this.choose(take));
       label.append(input, `Take ${take + 1}`);
-      return label;
-    })));
+      list.append(label);
+    }
+    for (const [take, input] of list.querySelectorAll("input").entries()) Object.assign(input, { checked: take === chosen, disabled: take >= found });
   }
 
   choose(take) {
@@ -306,29 +359,41 @@ class Page {
   }
 
   setPlaying(playing) {
-    this.playing = playing;
-    $("play").textContent = playing ? "Pause" : "Play";
-    $("play").setAttribute("aria-pressed", String(playing));
+    this.playing = playing && Boolean(this.shown && this.stage);
+    $("play").textContent = this.playing ? "Pause" : "Play";
   }
 
   seek(time) {
     this.time = time;
     this.stage?.placeAt(time);
-    const seconds = this.stage?.seconds ?? 0, now = Math.min(time, seconds);
+    const { seconds } = this, now = Math.min(time, seconds);
     $("scrub").value = now;
     $("scrub").setAttribute("aria-valuetext", `${now.toFixed(1)} seconds`);
     $("clock").textContent = `${now.toFixed(2)} / ${seconds.toFixed(2)} s`;
-    this.timeline?.showPlayhead(now / Math.max(seconds, 0.1));
+    this.timeline?.showPlayhead(this.place);
+  }
+
+  /** Of the longest take that is shown. */
+  get seconds() {
+    return secondsOf(this.shown ?? []);
+  }
+
+  /** Which of the timeline's seconds the playhead is at. What is kept of a clip lies outside them, and sentences that take other seconds than theirs fill them. */
+  get place() {
+    const { kept: [before, after] = [0, 0] } = this.shown?.[this.choice] ?? {};
+    const gone = (this.time - before) / Math.max(this.seconds - before - after, 0.1);
+    return Math.min(Math.max(gone, 0), 1) * spanOf(this.scene.blocks);
   }
 
   tell(message, kind = "note") {
     $("status").textContent = message;
     $("status").className = kind;
+    $("progress").textContent = "";
   }
 
   warnSoon() {
     clearTimeout(this.warnTimer);
-    this.warnTimer = setTimeout(() => this.warn(), 400);
+    this.warnTimer = setTimeout(() => this.warn().catch(() => {}), 400); // where it is stopped, the next change asks again
   }
 
   /** Says which sentences the model hardly knows, and which motions do not show theirs. */
@@ -377,11 +442,17 @@ class Page {
       }
       pressed = null;
     });
+    canvas.addEventListener("keydown", (event) => {
+      const way = { ArrowLeft: [-TURN, 0], ArrowRight: [TURN, 0], ArrowUp: [0, TURN], ArrowDown: [0, -TURN], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9] }[event.key];
+      if (!way || this.drawing || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      this.stage?.turn(...way);
+    });
   }
 
   choosePath(name) {
     if (name === "draw") {
-      if (!this.stage) return;
+      this.playsAfter = this.playing;
       this.drawing = true;
       this.setPlaying(false);
       this.stage.controls.enabled = false;
@@ -413,7 +484,7 @@ class Page {
     this.stage.resetView();
     this.stage.showPath(this.scene.path);
     document.body.classList.remove("drawing");
-    this.setPlaying(true);
+    this.setPlaying(this.playsAfter);
     this.changed();
   }
 
@@ -429,7 +500,12 @@ class Page {
       document.body.classList.remove("dropping");
       if (event.dataTransfer.files[0]) this.openClip(event.dataTransfer.files[0]);
     });
-    for (const id of ["mode", "from", "until", "keep", "joints"]) $(id).addEventListener("change", () => { this.showClip(); this.showMotions(); });
+    for (const id of ["mode", "from", "until", "keep", "joints"])
+      $(id).addEventListener("change", ({ target }) => {
+        if (target.type === "number") target.value = within(target.valueAsNumber, [Number(target.min), Number(target.max || Infinity)], target.defaultValue);
+        this.showClip();
+        this.showMotions();
+      });
     $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
     $("close-clip").addEventListener("click", () => { this.clip = null; this.showClip(); this.showMotions(); });
     for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
@@ -439,7 +515,8 @@ class Page {
   async openClip(file) {
     try {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
-      this.takeClip(readClip(file.name, new Uint8Array(await file.arrayBuffer()), this.settings.profiles), file.name);
+      const bytes = await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); });
+      this.takeClip(readClip(file.name, new Uint8Array(bytes), this.settings.profiles), file.name);
       this.tell(`${file.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.`);
     } catch (error) {
       this.tell(`${file.name}: ${error.message}`, "error");
@@ -456,10 +533,10 @@ class Page {
     this.showMotions();
   }
 
-  clipChoice(whole = false) {
-    const joints = $("joints").value === "all" ? [] : [$("joints").value];
-    const choice = { mode: $("mode").value, from: $("from").valueAsNumber || 0, until: $("until").valueAsNumber || 0, keep: $("keep").valueAsNumber || 1, joints };
-    return whole ? { ...choice, motion: this.clip.motion } : { ...choice, number: this.clip.number };
+  clipChoice() {
+    const { motion, number } = this.clip, joints = $("joints").value === "all" ? [] : [$("joints").value];
+    const [from, until, keep] = ["from", "until", "keep"].map((id) => $(id).valueAsNumber);
+    return { mode: $("mode").value, from, until, keep, joints, motion, number };
   }
 
   showClip() {
@@ -489,19 +566,15 @@ class Page {
   }
 
   async film() {
-    if (!this.stage) return;
     const before = this.playing;
     this.setPlaying(false);
-    $("save-film").disabled = true;
-    this.tell("Filming in real time …");
-    try {
-      const { blob, kind } = await recordFilm($("stage"), this.stage.seconds, (time) => this.seek(time));
+    await this.during(async () => {
+      this.tell("Filming in real time …");
+      const { blob, kind } = await recordFilm($("stage"), this.seconds, (time) => { this.seek(time); return !this.stopped; });
+      if (this.stopped) { this.tell("Stopped; no film is saved."); return; }
       download(blob, this.fileName(kind));
       this.tell(`Saved ${this.fileName(kind)}.`);
-    } catch (error) {
-      this.tell(error.message, "error");
-    }
-    $("save-film").disabled = false;
+    });
     this.setPlaying(before);
   }
 
@@ -520,6 +593,8 @@ class Page {
     }
   }
 }
+
+const secondsOf = (motions) => Math.max(0, ...motions.map(({ frames, fps }) => (frames - 1) / fps));
 
 function download(blob, name) {
   const link = document.createElement("a");

@@ -8,11 +8,14 @@ export const START = {
   seed: 0, takes: 2, chosen: 0, path: null,
 };
 
-const within = (value, [low, high], otherwise) => {
+export const within = (value, [low, high], otherwise) => {
   const number = Number(value);
   return Number.isFinite(number) ? Math.min(Math.max(number, low), high) : otherwise;
 };
 const whole = (value, range, otherwise) => Math.round(within(value, range, otherwise));
+
+/** Seconds that sentences have. */
+export const spanOf = (blocks) => blocks.reduce((sum, { seconds }) => sum + seconds, 0);
 
 /** A scene with nothing in it but what a scene has; null where it is none. */
 export function checked(raw) {
@@ -57,7 +60,8 @@ export class History {
   /** Take over a change; changes of one `kind` that follow each other are undone together. */
   change(update, kind = null) {
     const next = checked({ ...this.now, ...update });
-    if (!next || JSON.stringify(next) === JSON.stringify(this.now)) return;
+    if (!next) return;
+    if (JSON.stringify(next) === JSON.stringify(this.now)) { this.changed(); return; } // a field may show what was not taken
     if (kind === null || kind !== this.kind) this.past.push(this.now);
     this.past = this.past.slice(-200);
     this.future = [];

@@ -3,7 +3,7 @@
 import {
   AmbientLight, Bone, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog,
   HemisphereLight, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Vector2,
+  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Spherical, Vector2,
   Vector3, WebGLRenderer, PCFShadowMap, SRGBColorSpace,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -23,14 +23,16 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.scene = new Scene();
-    this.scene.background = new Color(0xeef1f5);
-    this.scene.fog = new Fog(0xeef1f5, 9, 34);
+    this.scene.background = new Color();
+    this.scene.fog = new Fog(0, 9, 34);
     this.camera = new PerspectiveCamera(38, 1, 0.05, 200);
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, maxPolarAngle: 1.53, minDistance: 1, maxDistance: 30 });
     this.bodies = [];
     this.shared = meshOf(body);
     this.addRoom();
+    this.paint();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.resetView();
     this.time = 0;
   }
@@ -46,7 +48,8 @@ export class Stage {
     const floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
     floor.rotation.x = -Math.PI / 2;
     floor.receiveShadow = true;
-    this.scene.add(floor, gridOf(30));
+    this.grid = gridOf(30);
+    this.scene.add(floor, this.grid);
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
     this.line.frustumCulled = false;
     this.scene.add(this.line);
@@ -55,6 +58,13 @@ export class Stage {
     this.ring.position.y = 0.006;
     this.ring.visible = false;
     this.scene.add(this.ring);
+  }
+
+  /** The room as bright as the page. */
+  paint() {
+    const style = getComputedStyle(this.canvas), colour = (name) => style.getPropertyValue(name).trim();
+    this.scene.fog.color.copy(this.scene.background.set(colour("--room")));
+    this.grid.material.color.set(colour("--grid"));
   }
 
   /** Show motions side by side, one of them chosen. */
@@ -83,11 +93,6 @@ export class Stage {
     mesh.bind(new Skeleton(bones, inverses), new Matrix4());
     this.scene.add(mesh);
     return { mesh, bones, colours };
-  }
-
-  /** Seconds of the longest motion. */
-  get seconds() {
-    return Math.max(0, ...(this.motions ?? []).map(({ frames, fps }) => (frames - 1) / fps));
   }
 
   /** Put every body where it is at a time. */
@@ -158,6 +163,13 @@ export class Stage {
     this.controls.update();
   }
 
+  /** The camera about what it looks at: by radians aside and up, and that many times as far; the controls keep its limits. */
+  turn(aside, up, farther = 1) {
+    const { target } = this.controls, way = new Spherical().setFromVector3(this.camera.position.clone().sub(target));
+    way.set(way.radius * farther, way.phi - up, way.theta + aside).makeSafe();
+    this.camera.position.setFromSpherical(way).add(target);
+  }
+
   /** Draw; the camera goes along with the chosen body. */
   draw(follow, step) {
     if (follow && this.focus) {
@@ -201,7 +213,7 @@ function gridOf(reach) {
   for (let i = -reach; i <= reach; i++)
     for (let j = -reach; j < reach; j++) points.push(i, 0, j, i, 0, j + 1, j, 0, i, j + 1, 0, i);
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-  const grid = new LineSegments(geometry, new LineBasicMaterial({ color: 0xb9c3d1 }));
+  const grid = new LineSegments(geometry, new LineBasicMaterial());
   grid.position.y = 0.002;
   return grid;
 }

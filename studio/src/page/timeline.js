@@ -1,6 +1,6 @@
 // The sentences over time: drag one to move it, its end to stretch it; keys do the same.
 
-import { LIMITS } from "./scene.js";
+import { LIMITS, spanOf } from "./scene.js";
 
 const STEP = 0.5; // seconds a key press
 
@@ -15,14 +15,21 @@ export class Timeline {
     root.append(this.list, this.head);
   }
 
-  get seconds() {
-    return this.page.scene.blocks.reduce((sum, block) => sum + block.seconds, 0);
+  show() {
+    const { blocks } = this.page.scene, { selected } = this.page;
+    const focused = [...this.list.children].findIndex((item) => item.contains(document.activeElement));
+    this.list.replaceChildren(...blocks.map((block, index) => this.item(block, index, selected)));
+    if (focused >= 0) this.focus(Math.min(focused, blocks.length - 1));
   }
 
-  show() {
-    const { blocks } = this.page.scene, { selected } = this.page, focused = this.root.contains(document.activeElement);
-    this.list.replaceChildren(...blocks.map((block, index) => this.item(block, index, selected)));
-    if (focused) this.list.children[selected]?.querySelector("button").focus();
+  focus(index) {
+    this.list.children[index].querySelector("button").focus();
+  }
+
+  /** To another place, and the focus with it. */
+  move(from, to) {
+    this.page.moveBlock(from, to);
+    this.focus(to);
   }
 
   item({ text, seconds }, index, selected) {
@@ -47,12 +54,12 @@ export class Timeline {
 
   key(event, index) {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const { blocks } = this.page.scene;
-    if (step && event.altKey) this.page.moveBlock(index, index + step);
-    else if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
-    else if (step && blocks[index + step]) this.page.select(index + step);
-    else if (event.key === "Delete") this.page.removeBlock();
-    else return;
+    const { blocks } = this.page.scene, next = index + step;
+    if (step && event.shiftKey) this.page.stretchBlock(index, blocks[index].seconds + step * STEP, `stretch${index}`);
+    else if (step && blocks[next] && event.altKey) this.move(index, next);
+    else if (step && blocks[next]) { this.page.select(next); this.focus(next); }
+    else if (event.key === "Delete") this.page.removeBlock(index);
+    else if (!step) return; // at an edge Alt and an arrow would leave the page
     event.preventDefault();
   }
 
@@ -71,7 +78,7 @@ export class Timeline {
       const places = [...this.list.children].map((item, i) => { const box = item.getBoundingClientRect(); return i === index ? null : (box.left + box.right) / 2; });
       const to = places.filter((place) => place !== null && place < clientX).length;
       if (to === index) this.show();
-      else this.page.moveBlock(index, to);
+      else this.move(index, to);
     };
     const stop = follow(move, up, () => this.show());
   }
@@ -79,7 +86,7 @@ export class Timeline {
   stretch(event, index) {
     event.preventDefault();
     const from = event.clientX, { seconds } = this.page.scene.blocks[index];
-    const perPixel = this.seconds / this.list.clientWidth;
+    const perPixel = spanOf(this.page.scene.blocks) / this.list.clientWidth;
     const stop = follow(
       ({ clientX }) => {
         const wanted = Math.min(Math.max(seconds + (clientX - from) * perPixel, LIMITS.seconds[0]), LIMITS.seconds[1]);
@@ -90,9 +97,19 @@ export class Timeline {
     );
   }
 
-  /** @param {number} share of the time that has gone, 0 to 1 */
-  showPlayhead(share) {
-    this.head.style.left = `${100 * share}%`;
+  /** Which sentence a second is in, and how far. */
+  at(second) {
+    const { blocks } = this.page.scene;
+    let index = 0;
+    for (; index < blocks.length - 1 && second >= blocks[index].seconds; index++) second -= blocks[index].seconds;
+    return [index, second];
+  }
+
+  /** Where the sentences are seen: short ones are wider than their share. */
+  showPlayhead(second) {
+    const [index, into] = this.at(second), { offsetLeft, offsetWidth } = this.list.children[index];
+    const left = offsetLeft + (into / this.page.scene.blocks[index].seconds) * offsetWidth;
+    this.head.style.left = `${(100 * left) / this.list.clientWidth}%`;
   }
 }
 

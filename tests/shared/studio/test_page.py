@@ -320,8 +320,8 @@ def test_the_browser_refuses_whatever_the_page_would_send(browser: Browser) -> N
 @BROWSER
 def test_the_timeline_is_edited_undone_and_carried_in_a_link(browser: Browser) -> None:
     click = "document.getElementById('{}').click()".format
-    with_blocks(browser, ("a person waves", 4))
-    browser.evaluate("studio.seek(0); studio.time = 1.5")
+    made(browser, "{ blocks: [{ text: 'a person waves', seconds: 4 }], seed: 0 }")
+    browser.evaluate("studio.seek(1.5)")
     browser.evaluate(click("cut"))
     seconds = "studio.scene.blocks.map((block) => block.seconds)"
     assert browser.evaluate(seconds) == [1.5, 2.5]
@@ -338,3 +338,200 @@ def test_the_timeline_is_edited_undone_and_carried_in_a_link(browser: Browser) -
     assert browser.evaluate(seconds) == [1.5, 2.5]
     browser.evaluate(f"location.hash = {link!r}")
     browser.wait("studio.scene.blocks.length === 3")
+
+
+def text_of(browser: Browser, name: str) -> str:
+    return str(browser.evaluate(f"document.getElementById('{name}').textContent"))
+
+
+def typed(browser: Browser, key: str, on: str = "document.activeElement", **held: bool) -> bool:
+    """One key, perhaps with others held; whether the browser is left to do its own with it."""
+    options = json.dumps({"key": key, "bubbles": True, "cancelable": True, **held})
+    return bool(browser.evaluate(f"{on}.dispatchEvent(new KeyboardEvent('keydown', {options}))"))
+
+
+def filled(browser: Browser, name: str, value: str, event: str = "change") -> str:
+    """Fill a field in; what it shows then."""
+    field = f"document.getElementById('{name}')"
+    browser.evaluate(f"{field}.value = {json.dumps(value)}")
+    browser.evaluate(f"{field}.dispatchEvent(new Event('{event}'))")
+    return str(browser.evaluate(f"{field}.value"))
+
+
+@BROWSER
+def test_takes_are_filed_under_the_scene_that_was_asked_for(browser: Browser) -> None:
+    waves = "{ blocks: [{ text: 'a person waves', seconds: 1 }], seed: 40 }"
+    made(browser, waves)
+    shown = "studio.shown[0].text"
+    for change in (
+        "history.change({ blocks: [{ text: 'a person jumps', seconds: 1 }] })",
+        "history.change({ seed: 43 })",
+        "history.change({ path: [[0, 0], [0, 2]] })",
+    ):
+        browser.evaluate("studio.history.change({ seed: studio.scene.seed + 1 })")
+        browser.evaluate(f"void studio.make(); studio.{change}")
+        browser.wait("!studio.making", 60)
+        assert text_of(browser, "status").startswith("Changed")
+        assert browser.evaluate("document.body.classList.contains('stale')")
+        browser.evaluate("studio.history.undo()")
+        assert not browser.evaluate("document.body.classList.contains('stale')")
+        assert browser.evaluate(shown) == "a person waves"
+    browser.evaluate("document.getElementById('use-motion').click()")
+    close = "document.getElementById('close-clip').click()"
+    browser.evaluate(f"studio.history.change({{ seed: 50 }}); void studio.make(); {close}")
+    browser.wait("!studio.making", 60)
+    assert browser.evaluate("document.body.classList.contains('stale')")
+
+
+@BROWSER
+def test_keys_act_on_what_has_the_focus_and_leave_it_there(browser: Browser) -> None:
+    with_blocks(browser, ("a", 1), ("b", 1), ("c", 1))
+    browser.evaluate("studio.select(0)")
+    focus = "document.querySelectorAll('#timeline button')[{}].focus()".format
+    focused = "[...document.querySelectorAll('#timeline button')].indexOf(document.activeElement)"
+    texts = "studio.scene.blocks.map(({ text }) => text).join('')"
+    browser.evaluate(focus(1))
+    assert not typed(browser, "ArrowRight", shiftKey=True)
+    assert browser.evaluate("studio.scene.blocks[1].seconds") == 1.5
+    assert browser.evaluate(focused) == 1 and browser.evaluate("studio.selected") == 0
+    assert not typed(browser, "ArrowRight", altKey=True)
+    assert browser.evaluate(texts) == "acb" and browser.evaluate(focused) == 2
+    assert not typed(browser, "ArrowRight", altKey=True)  # at the end; the page is not left
+    assert not typed(browser, "ArrowLeft")
+    assert browser.evaluate("studio.selected") == browser.evaluate(focused) == 1
+    browser.evaluate(focus(0))
+    typed(browser, "Delete")
+    assert browser.evaluate(texts) == "cb" and browser.evaluate(focused) == 0
+    assert browser.evaluate("studio.selected") == 0
+
+    for name, tag in (("text", "textarea"), ("seed", "number")):
+        assert typed(browser, "z", f"document.getElementById('{name}')", ctrlKey=True), tag
+    for name in ("path", "scrub", "follow"):
+        assert not typed(browser, "z", f"document.getElementById('{name}')", ctrlKey=True), name
+    assert browser.evaluate(texts) == "abc"
+    assert typed(browser, " ", "document.querySelector('summary')")
+    assert not typed(browser, " ", "document.body")
+
+    made(browser, "{ takes: 2, blocks: [{ text: 'a person waves', seconds: 1 }], seed: 60 }")
+    browser.evaluate("document.querySelectorAll('#take-list input')[1].focus()")
+    browser.evaluate("document.activeElement.click()")
+    assert browser.evaluate("studio.scene.chosen") == 1
+    assert browser.evaluate("document.activeElement.value") == "1"
+
+
+@BROWSER
+def test_fields_show_what_the_scene_has(browser: Browser, tmp_path: Path) -> None:
+    with_blocks(browser, ("a person waves", 2))
+    for value, shown in (("99", "30"), ("99", "30"), ("", "30"), ("-1", "0.5"), ("0", "0.5")):
+        assert filled(browser, "seconds", value) == shown
+    assert [filled(browser, "seed", value) for value in ("7", "", "-2", "-2")] == list("7700")
+    assert [filled(browser, "keep", value) for value in ("", "99", "0")] == ["1", "10", "0.2"]
+    filled(browser, "keep", "1")
+    for letters in (400, 301):
+        assert filled(browser, "text", "a" * letters, "input") == "a" * 300
+        assert "300 letters" in text_of(browser, "status")
+    option = "document.querySelector('#path option[value={}]').disabled".format
+    assert browser.evaluate(option("draw"))  # without WebGL
+    assert browser.evaluate(option("drawn"))
+    browser.evaluate("studio.history.change({ path: [[0, 0], [0, 2]] })")
+    assert not browser.evaluate(option("drawn"))
+    browser.evaluate("studio.history.undo()")
+    folder = "{ name: 'clips', size: 0, arrayBuffer: () => Promise.reject(new Error('x')) }"
+    browser.evaluate(f"studio.openClip({folder})")
+    assert "folder" in text_of(browser, "status")
+
+
+@BROWSER
+def test_seconds_that_the_words_ask_for_are_told_and_cut(browser: Browser) -> None:
+    said = "new MutationObserver(() => globalThis.said++).observe(document.getElementById('status')"
+    browser.evaluate(f"globalThis.said = 0; {said}, {{ childList: true }})")
+    made(browser, "{ blocks: [{ text: 'a person walks four metres', seconds: 2 }], seed: 1 }")
+    seconds = browser.evaluate("studio.seconds")
+    assert browser.evaluate("globalThis.said") <= 3  # changed, its begin, its end
+    first = text_of(browser, "status")
+    assert seconds > 3 and f"it lasts {seconds:.1f} s" in first
+    browser.evaluate("studio.make()")
+    assert text_of(browser, "status") == "Nothing has changed since it was m" + first[1:]
+    browser.evaluate("studio.seek(studio.seconds / 2)")
+    assert browser.evaluate("document.querySelector('.playhead').style.left") == "50%"
+    browser.evaluate("document.getElementById('cut').click()")
+    assert browser.evaluate("studio.scene.blocks.map(({ seconds }) => seconds)") == [1, 1]
+    browser.evaluate("studio.history.undo()")
+    assert "aria-pressed" not in browser.evaluate("document.getElementById('play').outerHTML")
+    assert browser.evaluate("document.getElementById('clock').ariaLive") == "off"
+
+
+@BROWSER
+def test_what_takes_long_is_stopped_and_what_is_finished_stays(browser: Browser) -> None:
+    blocks = "[{ text: 'a person waves', seconds: 2 }]"
+    asked = f"{{ blocks: {blocks}, path: null, takes: 4, seed: 70 }}"
+    browser.evaluate(f"studio.history.change({asked})")
+    browser.evaluate("void studio.make(); document.getElementById('stop').focus()")
+    there = "Array.from({ length: 4 }, (_, take) => studio.motions.has(studio.keyOf(take)))"
+    browser.wait(f"{there}[0]")
+    typed(browser, "Escape")
+    assert browser.evaluate("document.activeElement.id") == "make"
+    browser.wait("!studio.making")
+    assert text_of(browser, "status").startswith("Stopped")
+    found = browser.evaluate(there)
+    assert found[0] and not found[3]
+    browser.evaluate("studio.make()")
+    assert browser.evaluate(there) == [True] * 4
+    assert browser.evaluate("document.getElementById('stop').hidden")
+    last = "const last = studio.motions.get(studio.keyOf(3)); studio.motions.clear();"
+    others = "for (let i = 0; i < 23; i++) studio.motions.set(i, null);"
+    browser.evaluate(f"{last} studio.motions.set(studio.keyOf(3), last); {others}")
+    browser.evaluate("studio.history.change({ seed: 73 })")
+    browser.evaluate("studio.make()")  # three more than are remembered
+    assert browser.evaluate(there) == [True] * 4
+    assert browser.evaluate("document.getElementById('status').className") == "note"
+    browser.evaluate("studio.motions.clear()")
+    browser.evaluate("studio.history.change({ takes: 1 })")
+
+
+@BROWSER
+def test_nothing_plays_on_its_own_where_less_motion_is_preferred(browser: Browser) -> None:
+    made(browser, "{ blocks: [{ text: 'a person waves', seconds: 1 }], seed: 0 }")
+    assert text_of(browser, "play") == "Play"  # without WebGL
+    browser.evaluate("studio.stage = new Proxy({}, { get: () => () => null }); 0")
+    for preferred, button in (("reduce", "Play"), ("no-preference", "Pause")):
+        media = [{"name": "prefers-reduced-motion", "value": preferred}]
+        browser.call("Emulation.setEmulatedMedia", features=media)
+        browser.evaluate("studio.shown = null; studio.setPlaying(false); studio.showMotions()")
+        assert text_of(browser, "play") == button
+        browser.evaluate("studio.choosePath('draw')")
+        assert text_of(browser, "play") == "Play"
+        browser.evaluate("studio.stopDrawing()")
+        assert text_of(browser, "play") == button
+    browser.evaluate("studio.setPlaying(false); studio.stage = undefined")
+
+
+CONTRAST = r"""(() => {
+    const parts = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255);
+    const linear = (v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    const light = (colour) => parts(colour).map(linear)
+        .reduce((sum, part, i) => sum + part * [0.2126, 0.7152, 0.0722][i], 0.05);
+    const style = (selector) => getComputedStyle(document.querySelector(selector));
+    const ratio = (a, b) => Math.max(light(a) / light(b), light(b) / light(a));
+    return {
+        edges: ["#open", "#text", "#seconds", "#path", "#timeline li:not(.selected)"]
+            .map((name) => ratio(style(name).borderTopColor, style("aside").backgroundColor)),
+        words: [["#timeline .selected small", "#timeline .selected"], ["h2", "aside"],
+                ["#status", "main"], ["body", "body"]]
+            .map(([word, back]) => ratio(style(word).color,
+                back === "main" ? style("body").backgroundColor : style(back).backgroundColor)),
+    };
+})()"""
+
+
+@BROWSER
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_edges_and_words_can_be_seen(scheme: str, browser: Browser) -> None:
+    with_blocks(browser, ("a", 1), ("b", 1))
+    media = [{"name": "prefers-color-scheme", "value": scheme}]
+    browser.call("Emulation.setEmulatedMedia", features=media)
+    found = browser.evaluate(CONTRAST)
+    assert min(found["edges"]) >= 3 and min(found["words"]) >= 4.5, found
+    dark = browser.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 28)"
+    assert dark == (scheme == "dark")
+    browser.call("Emulation.setEmulatedMedia", features=[])
