@@ -2,26 +2,35 @@
 
 python -m benchmarks.dances SONG [SONG ...] [--seconds 30] [--seeds 4] [--sentence TEXT ...]
 
+A SONG is a file, or `synthetic` (20 made songs), `threes` (4 by another hand, three beats in a bar)
+or `slow` (4 of 52 to 68 beats a minute).
+
 The rows of docs/experiments.md, section 57: `MotionGenerator.dance` of the shipped models, a mean
 over songs and seeds. *F* is of the body's beats and the song's; *by chance* of another song's.
 *seam*: 99th percentile of the largest acceleration of a joint within .27 s of where one figure
 follows another. *turned over*: joints, the pelvis apart, that turn by more than 50 degrees in a
-frame, a dance.
+frame, a dance. *frozen pose*: the first pose of each dance, all along.
 """
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import chain, count, islice
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
+import soundfile
 
 from src.shared.audio.song import Song, analyse
+from src.shared.audio.synthetic import SongSpec, render_song, sample_song_specs
 from src.shared.metrics.rhythm import body_beats, rhythm_f
 from src.shared.metrics.seams import ACCELERATION, body_quantities
 from src.shared.metrics.stage import stage
 from src.shared.model.diffusion import Sampling
 from src.shared.pipelines.body import Performance
 from src.shared.pipelines.motion_generator import MotionGenerator
+from tests.shared.audio.other_songs import pattern
 
 SENTENCES = (
     "a person dances", "a happy person dances", "a calm person dances", "a person dances salsa",
@@ -29,6 +38,7 @@ SENTENCES = (
     "a person dances like Michael Jackson", "a person dances a waltz", "an old man dances",
     "a sad person dances",
 )  # fmt: skip
+MADE, SLOW, SAMPLE_RATE = ("synthetic", "threes", "slow"), (52.0, 58.0, 63.0, 68.0), 44_100
 NEAR_SEAM = 8  # frames
 TURNED = np.cos(np.radians(50) / 2)
 
@@ -54,15 +64,57 @@ def figures(dance: Performance, song: Song, other: Song) -> dict[str, float]:
     }
 
 
+def standing(dance: Performance) -> Performance:
+    """The first pose of a dance, all along."""
+    motion = dance.motion
+    frozen = replace(
+        motion,
+        quaternions=np.repeat(motion.quaternions[:1], motion.num_frames, 0),
+        root_position=np.repeat(motion.root_position[:1], motion.num_frames, 0),
+    )
+    return replace(dance, motion=frozen)
+
+
+def told(name: str, rows: Sequence[dict[str, float]]) -> None:
+    """A line of the means."""
+    columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
+    means = {key: column[np.isfinite(column)].mean() for key, column in columns.items()
+             if np.isfinite(column).any()}  # fmt: skip
+    print(f"{name} ({len(rows)})", *(f"{key} {value:.2f}" for key, value in means.items()),
+          sep="  ", flush=True)  # fmt: skip
+
+
+def made(kind: str, folder: Path) -> list[Path]:
+    """Files of the songs that are made, in their order."""
+    if kind == "threes":
+        several = (pattern(seed, seconds=30.0) for seed in count(2000))
+        three = [song.samples for song in islice((s for s in several if s.meter == 3), 4)]
+        files = [folder / f"{kind}{number:02}.wav" for number in range(len(three))]
+        for file, samples in zip(files, three, strict=True):
+            soundfile.write(file, samples, SAMPLE_RATE)
+        return files
+    specs = [SongSpec(seconds=30.0, tempo=t, seed=500 + i) for i, t in enumerate(SLOW)]
+    if kind == "synthetic":
+        specs = sample_song_specs(20, 77, "held-out")
+    files = [folder / f"{kind}{number:02}.wav" for number in range(len(specs))]
+    for file, spec in zip(files, specs, strict=True):
+        render_song(spec).write_wav(file)
+    return files
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """A line a sentence, as its dances are done."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("songs", type=Path, nargs="+")
+    parser.add_argument("songs", nargs="+")
     parser.add_argument("--seconds", type=float, default=30.0)
     parser.add_argument("--seeds", type=int, default=4)
     parser.add_argument("--sentence", action="append")
     given = parser.parse_args(arguments)
-    generator, songs = MotionGenerator(), [analyse(path) for path in given.songs]
+    with TemporaryDirectory() as folder:
+        files = [made(name, Path(folder)) if name in MADE else [Path(name)] for name in given.songs]
+        songs = [analyse(path) for path in chain.from_iterable(files)]
+    generator = MotionGenerator()
+    still: list[dict[str, float]] = []
     for sentence in given.sentence or SENTENCES:
         rows = []
         for number, song in enumerate(songs):
@@ -71,9 +123,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
                     song, sentence, seconds=given.seconds, sampling=Sampling(seed=seed)
                 )
                 rows.append(figures(asked.ranked[0], song, songs[number - 1]))
-        means = {key: np.nanmean([row[key] for row in rows]) for key in rows[0]}
-        print(f"{sentence} ({len(rows)})", *(f"{key} {value:.2f}" for key, value in means.items()),
-              sep="  ", flush=True)  # fmt: skip
+                still.append(figures(standing(asked.ranked[0]), song, songs[number - 1]))
+        told(sentence, rows)
+    told("frozen pose", still)
 
 
 if __name__ == "__main__":
