@@ -488,6 +488,11 @@ def goes_round(text: str) -> bool:
     return bool(all_words().round.search(text)) and not all_words().corner.search(text)
 
 
+def turns_head(text: str) -> bool:
+    """Whether a text asks the head alone to turn."""
+    return bool(all_words().head_turns.search(text))
+
+
 # ---------------------------------------------------------------- measure
 
 

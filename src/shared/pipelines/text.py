@@ -57,7 +57,7 @@ from .path import (
     time_path,
     turned,
 )
-from .sentence import GOING, Clause, Reading, clauses, goes_round, side_of, tidied
+from .sentence import GOING, Clause, Reading, clauses, goes_round, side_of, tidied, turns_head
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 
@@ -217,13 +217,17 @@ class SentenceGenerator:
         )
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
-        parts = self.clauses(prompt)
+        parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
         if len(texts) == 1:  # known without its measures, or with them
             lines = self.generator.scope_warnings([tidied(prompt)], again=again)
-            if parts[0].plain or lines == [None]:
-                return lines
-        return self.generator.scope_warnings(texts, again=again)
+        if len(texts) > 1 or not (parts[0].plain or lines == [None]):
+            lines = self.generator.scope_warnings(texts, again=again)
+        alone = "asks the head alone to turn, which this model has not learned"
+        return [
+            line or (f"prompt {text!r} {alone}" if turns_head(text) else None)
+            for text, line in zip(texts, lines, strict=True)
+        ]
 
     # ------------------------------------------------------------ one sentence
 
@@ -330,7 +334,7 @@ class SentenceGenerator:
         if clause.degrees is not None or self._nearest(clause.text) == "spin":
             return True
         if self._nearest(clause.text) == "turn" and side_of(clause.text) != "both":
-            return True
+            return not turns_head(clause.text)
         return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
 
     def _bend(self, text: str) -> float:

@@ -160,6 +160,7 @@ class Words:
         someone = rf"(?:{_any(all_of('who'))}|{_any(all_of('own'))}\s+{_LETTER}+)\s+"
         alone = rf"^(?:{someone})?{halts}\W*$"
         self.halts = re.compile(rf"{alone}|{further}{halts}{ends}", re.I)
+        self.head_turns = re.compile(_any(all_of("head_turns")), re.I)
         self.downs = re.compile(_any(all_of("downs")), re.I)
         self.ups = re.compile(rf"^(?:{someone})?{_any(all_of('ups'))}\W*$", re.I)
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))

@@ -32,11 +32,10 @@ export class Director {
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    if (texts.length === 1) { // known without its measures, or with them
-      const line = this.scope.warning(this.reader.tidied(prompt));
-      if (isPlain(parts[0]) || line === null) return line;
-    }
-    return texts.map((text) => this.scope.warning(text)).find(Boolean) ?? null;
+    let lines = texts.length === 1 ? [this.scope.warning(this.reader.tidied(prompt))] : []; // known without its measures, or with them
+    if (texts.length > 1 || !(isPlain(parts[0]) || lines[0] === null)) lines = texts.map((text) => this.scope.warning(text));
+    const head = texts.find((text) => this.reader.turnsHead(text));
+    return lines.find(Boolean) ?? (head ? `“${head}” asks the head alone to turn, which this model has not learned.` : null);
   }
 
   /**
@@ -202,7 +201,7 @@ export class Director {
   /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */
   async turns({ degrees, metres, count, text }) {
     if (degrees !== null || this.nearest(text) === "spin") return true;
-    if (this.nearest(text) === "turn" && this.reader.sideOf(text) !== "both") return true;
+    if (this.nearest(text) === "turn" && this.reader.sideOf(text) !== "both") return !this.reader.turnsHead(text);
     return metres === null && count === 1 && (await this.bend(text)) !== 0;
   }
 

@@ -326,6 +326,10 @@ export class SentenceReader {
     return this.first.round.test(text) && !this.first.corner.test(text);
   }
 
+  turnsHead(text) {
+    return this.first.head_turns.test(text);
+  }
+
   measured(text) {
     let clause = { ...plainClause(text.replaceAll(HELD, "")), held: text.includes(HELD) };
     text = clause.text;

@@ -183,6 +183,14 @@ def test_who_sits_does_not_glide(starter: TextToMotion):
     assert min(travelled()) > 0.1
 
 
+@pytest.mark.parametrize("text", ["a guard turns his head to the left", "他向左转头"])
+def test_a_head_that_turns_is_no_turn_of_the_body(starter: TextToMotion, text: str):
+    made = SentenceGenerator(starter)
+    (line,) = made.scope_warnings([text])
+    assert line is not None and not made._turns(made.clauses(text)[0])
+    assert made.scope_warnings(["a guard turns to the left"]) == [None]
+
+
 def test_who_is_to_turn_turns(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     prompts = [
