@@ -1,6 +1,7 @@
 """What `generate` is asked: its options, and which of them go together."""
 
 import csv
+import io
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -391,14 +392,19 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
         lines = [line.strip() for line in text.splitlines() if line.strip()]
         table = [(number, {"prompt": line}) for number, line in enumerate(lines, 1)]
     else:
-        reader = csv.DictReader(text.splitlines(), restkey="more", restval="")
-        columns = reader.fieldnames or []
-        if "prompt" not in columns or not {*columns} <= {"prompt", "seconds", "tag"}:
-            raise UserError(
-                f"--prompts {path}: its columns are {', '.join(columns) or 'none'}; give prompt,"
-                " and if you like seconds and tag"
-            )
-        table = [(reader.line_num, row) for row in reader if any(row.values())]
+        reader = csv.DictReader(io.StringIO(text), restkey="more", restval="", strict=True)
+        try:
+            columns = [name.strip().lower() for name in reader.fieldnames or []]
+            reader.fieldnames = columns
+            if columns.count("prompt") != 1 or not {*columns} <= {"prompt", "seconds", "tag"}:
+                raise UserError(
+                    f"--prompts {path}: its columns are {', '.join(columns) or 'none'}; give"
+                    " prompt, and if you like seconds and tag"
+                )
+            table = [(reader.line_num, row) for row in reader if any(row.values())]
+        except csv.Error as error:
+            line = reader.line_num
+            raise UserError(f"--prompts {path}, line {line}: {error}; mend it") from None
     if not table:
         raise UserError(f"--prompts {path}: holds no prompt; write one a line")
     seconds: list[float | None] = []
@@ -407,7 +413,7 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
             what = "has too many cells" if "more" in row else "has no prompt"
             raise UserError(f"--prompts {path}, line {number}: {what}; mend it")
         try:
-            long = float(row["seconds"]) if row.get("seconds") else None
+            long = float(row["seconds"]) if row.get("seconds", "").strip() else None
         except ValueError:
             long = 0.0
         if long is not None and not SHORTEST <= long <= LONGEST:

@@ -63,6 +63,9 @@ def test_wrong_usage_is_one_line_and_exit_code_2(arguments: list[str], named: st
         ("p.csv", "prompt,seconds\na,1000\n", "line 2: '1000' is no number"),
         ("p.csv", "prompt,seconds\n,2\n", "line 2: has no prompt"),
         ("p.csv", "prompt,seconds\na,2,walk\n", "line 2: has too many cells"),
+        ("p.csv", "prompt,prompt\na,b\n", "columns are prompt, prompt"),
+        ("p.csv", 'prompt,seconds\n"x,3\ny,4\n', "unexpected end of data"),
+        ("p.csv", f"prompt\n{'a' * 140_000}\n", "field larger than field limit"),
     ],
 )
 def test_a_faulty_file_of_prompts_names_its_line(

@@ -33,7 +33,7 @@ from .checkpoint import (
 )
 
 if TYPE_CHECKING:
-    from huggingface_hub import HfApi
+    pass
 
 PROGRAM, README = "motionsuite", "README.md"
 NAME = re.compile(
@@ -290,8 +290,7 @@ def push_to_hub(
 ) -> str:
     """Publish a model in one commit, with its card; returns the commit's address.
 
-    A repository that is not there is made (and goes again if nothing got into it), and so is a
-    branch. Files of a model that an earlier
+    A repository that is not there is made, and so is a branch. Files of a model that an earlier
     commit brought and this model does not have are deleted; others are left.
 
     Args:
@@ -314,38 +313,24 @@ def push_to_hub(
 
     with _told(name, branch, endpoint, local=False):
         api = HfApi(endpoint=endpoint, library_name=PROGRAM)
-        with _made(api, name, private=private):
-            if branch is not None:
-                api.create_branch(name, branch=branch, exist_ok=True)
-            there = [
-                file for file in api.list_repo_files(name, revision=branch) if OURS.fullmatch(file)
-            ]
-            left = [file for file in there if file not in (*files, README)]
-            commit = api.create_commit(
-                name,
-                [
-                    *(CommitOperationAdd(file, folder / file) for file in files if file != README),
-                    CommitOperationAdd(README, card.encode()),
-                    *map(CommitOperationDelete, left),
-                ],
-                commit_message=message or f"Upload {folder.name} by {PROGRAM}",
-                revision=branch,
-            )
+        api.create_repo(name, private=private, exist_ok=True)
+        if branch is not None:
+            api.create_branch(name, branch=branch, exist_ok=True)
+        there = [
+            file for file in api.list_repo_files(name, revision=branch) if OURS.fullmatch(file)
+        ]
+        left = [file for file in there if file not in (*files, README)]
+        commit = api.create_commit(
+            name,
+            [
+                *(CommitOperationAdd(file, folder / file) for file in files if file != README),
+                CommitOperationAdd(README, card.encode()),
+                *map(CommitOperationDelete, left),
+            ],
+            commit_message=message or f"Upload {folder.name} by {PROGRAM}",
+            revision=branch,
+        )
     return str(commit.commit_url)
-
-
-@contextmanager
-def _made(api: "HfApi", name: str, *, private: bool) -> Iterator[None]:
-    """Make a repository that is not there; where nothing got into it, it goes again."""
-    new = not api.repo_exists(name)
-    api.create_repo(name, private=private, exist_ok=True)
-    try:
-        yield
-    except BaseException:
-        with suppress(Exception):  # what went wrong first is what is told
-            if new and set(api.list_repo_files(name)) <= {".gitattributes"}:
-                api.delete_repo(name)
-        raise
 
 
 def model_files(folder: Path) -> list[str]:

@@ -8,25 +8,39 @@ that is of it decides where no word does.
 
 import math
 import re
-import unicodedata
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from .words import CJK_SIGN, EDGES, MAX_COUNT, MOST, NUMBERED, UNITS, all_words, bare
+from .words import (
+    ARRIVES,
+    ARROW,
+    CJK_SIGN,
+    EDGES,
+    MAX_COUNT,
+    MOST,
+    STANDS,
+    UNITS,
+    all_words,
+    bare,
+    plain_text,
+    tidied,
+    value_of,
+)  # fmt: skip
 
 # ---------------------------------------------------------------- what they mean
 
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
-ARROW, STANDS, SITS, SQUATS = " → ", "stands still", "sits", "squats down"
+SITS, SQUATS = "sits", "squats down"
 BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
-HELD, HALT = "\u23f8", 2.5  # behind what is held; seconds
+HELD, HALT = "\u23f8", 2.5  # behind what is held; seconds that it takes to come to a stand
 GOING = frozenset({"walk", "run", "crouch-walk"})
-UNHELD = GOING | {"jump"}  # what nobody stays in
+LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
+HOLDABLE = frozenset({"raise", "bow", "squat"})
+_HELD = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 MOST_PIECES = 8  # between commas, that may be one part
 
 
@@ -103,11 +117,13 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
     one clause, with what the arms do meanwhile.
     """
-    text, found, words = _plain(tidied(sentence)), list[Clause](), all_words()
+    words, found = all_words(), list[Clause]()
+    stands = read(STANDS).action == "stand"
 
     def known(text: str) -> Reading:
-        return GOT_UP if words.ups.match(text) else read(text)
+        return GOT_UP if stands and words.ups.match(text) else read(text)
 
+    text = _staying(plain_text(tidied(sentence)), known)
     for whole in _ordered(text, known):
         pieces = _joined(whole, known)
         last = found[-1] if found else None
@@ -115,27 +131,66 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
             first, *others = pieces
             pair = _at_once(first, others[0], known) if others else None
             clause = pair or _parted(first, known) or _measured(first)
-            found += _held(_as_before(last, clause) if last else clause, first, known)
+            found.append(_as_before(last, clause) if last else clause)
             last = None
             pieces = others[1:] if pair else others
     found = [clause for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
-    if words.downs.search(first) or words.ups.search(first):
-        before = STANDS if words.downs.search(first) else SITS
-        found.insert(0, Clause(before, seconds=BEFORE))
+    if words.downs.match(first) and _surely(known(first)) in LOW:
+        found.insert(0, Clause(STANDS, seconds=BEFORE))
+    elif stands and words.ups.match(first) and read(SITS).action in LOW:
+        found.insert(0, Clause(SITS, seconds=BEFORE))
+    if not stands:
+        return found
     return [replace(each, text=words.ups.sub(STANDS, each.text)) for each in found]
 
 
-def _held(clause: Clause, said: str, read: Read) -> list[Clause]:
-    """A clause; where it is held and nobody can stay in it, what comes to a stand behind it."""
-    action = read(clause.text).action if clause.held else None
-    if action not in UNHELD:
-        return [clause]
-    if action == "crouch-walk":  # "crouches and stays down"
-        return [replace(clause, text=SQUATS)]
-    waits = _measured(said.partition(HELD)[2]).seconds
-    own = None if waits else clause.seconds
-    return [replace(clause, held=False, seconds=own), Clause(STANDS, seconds=waits or HALT)]
+def _surely(reading: Reading) -> str | None:
+    return reading.action if reading.certainty > SURE else None
+
+
+def _staying(text: str, read: Read) -> str:
+    """A text with marks behind what is held, and clauses for where a body comes to a stand."""
+    words, place = all_words(), 0
+    while found := [m for each in (words.held, words.halts) if (m := each.search(text, place))]:
+        match = min(found, key=lambda each: each.start())
+        left, stop = text[: match.start()], match.end()
+        long = _lasting(text, stop)
+        if long:
+            stop = long[0]
+        own = left[left.rfind(ARROW.strip()) + 1 :]
+        tail = own[max((each.end() for each in words.joint.finditer(own)), default=0) :]
+        tried = (_surely(read(_measured(_trimmed(each)).text)) for each in (tail, own))
+        action, said = next(filter(None, tried), None), ""
+        if re.search("[不没别勿]", left[-4:]):
+            action = None
+        stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
+        if (
+            stays and action == "crouch-walk"
+        ):  # "crouches and stays down", not "sneaks, staying low"
+            whole = _surely(read(_measured(_trimmed(own + match[0])).text))
+            if whole == "squat" or words.crouches.search(own):
+                left, action = f"{left[: len(left) - len(own)]}{SQUATS}", "squat"
+        if stays and action in HOLDABLE:
+            said = f"{HELD}{long[1]:g}{HELD}" if long else HELD
+        elif stays and action in LOW:
+            said = f" for {ARRIVES + long[1]:g} seconds" if long else " "
+        elif comes and action and action not in HOLDABLE | LOW:
+            said = f"{ARROW}{STANDS} for {long[1] if long else HALT:g} seconds"
+        place = match.end()
+        if said:
+            more = text[stop:].strip(EDGES)
+            text, place = f"{left}{said}{ARROW if more else ''}{more}", len(left) + len(said)
+    return text
+
+
+def _lasting(text: str, place: int) -> tuple[int, float] | None:
+    """Where seconds or minutes that stand at a place end, and how long they are."""
+    place += len(text[place:]) - len(text[place:].lstrip())
+    for name in ("seconds", "minutes"):
+        if match := all_words().units[name].match(text, place):
+            return match.end(), _measured(match[0]).seconds or 0.0
+    return None
 
 
 def _as_before(before: Clause, clause: Clause) -> Clause:
@@ -155,53 +210,6 @@ def _as_before(before: Clause, clause: Clause) -> Clause:
 
 
 # ---------------------------------------------------------------- order
-
-
-def _plain(text: str) -> str:
-    return unicodedata.normalize("NFKC", " ".join(text.split()))
-
-
-def tidied(sentence: str) -> str:
-    """A sentence without greeting and thanks, with plain words for idioms and pauses and arrows for
-    the numbers of a list; it itself where it has nothing of these."""
-    words, plain = all_words(), _plain(sentence)
-    text = _plain(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
-    text = words.greeting.sub("", text)
-    text = words.closing.sub("", text) or text
-    text = words.short.sub(lambda cut: cut[0][:-1], text)
-    text = words.held.sub(HELD, text)
-    text = words.halts.sub(_halt, text)
-    text = words.idiom.sub(lambda said: words.plainly[bare(_plain(said[0]))], text)
-    text = words.undone.sub(
-        lambda said: "" if words.arms.search(text[: said.start()]) else said[0], text
-    )
-    for name, pause in words.pauses.items():
-        factor = UNITS[name.partition("_")[2]][1]
-        text = pause.sub(partial(_pause, factor=factor), text)
-    text = text.removeprefix(ARROW.lstrip())
-    if text.endswith(ARROW):  # "he waves after two seconds"
-        *parts, rest = text.removesuffix(ARROW).split(ARROW)
-        text = ARROW.join([*parts[:-1], rest, *parts[-1:]])
-    numbers = list(NUMBERED.finditer(text))
-    if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
-        lead = text[: numbers[0].start()].strip()
-        if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
-            text = text[numbers[0].end() :]
-        text = NUMBERED.sub(ARROW, text)
-    return sentence if text == plain else text
-
-
-def _pause(said: re.Match[str], factor: float) -> str:
-    seconds = (_value(said["number"]) + 0.5 * bool(said["half"])) * factor
-    return f"{ARROW}{STANDS} for {seconds:g} seconds{ARROW}" if seconds else said[0]
-
-
-def _halt(said: re.Match[str]) -> str:
-    more, first = said.string[said.end() :].strip(EDGES), not said.start()
-    if any(all_words().units[name].match(more) for name in ("seconds", "minutes")):
-        return STANDS if first else f"{ARROW}{STANDS}"
-    long = "" if first and not more else f" for {HALT:g} seconds"
-    return f"{'' if first else ARROW}{STANDS}{long}{ARROW if more else ''}"
 
 
 def _ordered(text: str, read: Read) -> list[str]:
@@ -449,9 +457,7 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     sides, alone = _sides(*halves), first.arms and second.arms
     halves = [_naming(half, side) for half, side in zip(halves, sides, strict=True)]
     return _Pair(
-        replace(
-            _measured(halves[body]), meanwhile=halves[other].replace(HELD, ""), side=sides[other]
-        ),
+        replace(_measured(halves[body]), meanwhile=_HELD.sub("", halves[other]), side=sides[other]),
         min(first.certainty, second.certainty),
         alone,
         alone and set(sides) == _SIDES,
@@ -497,19 +503,30 @@ def turns_head(text: str) -> bool:
 
 
 def _measured(text: str) -> Clause:
-    """A clause with its measures taken out."""
-    words, clause = all_words(), Clause(text.replace(HELD, ""), held=HELD in text)
-    text = clause.text
+    """A clause with its measures and its mark taken out."""
+    mark = _HELD.search(text)
+    if mark is None:
+        return _with_measures(text)
+    clause = _with_measures(_HELD.sub("", text))
+    if clause.far or clause.count > 1:  # led, and over when it is done
+        return clause
+    own = clause.seconds
+    seconds = own if mark[1] is None else (own or ARRIVES) + float(mark[1])
+    return replace(clause, seconds=seconds, held=True)
+
+
+def _with_measures(text: str) -> Clause:
+    words, clause = all_words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
     for name, (field, factor, least) in UNITS.items():
         found = words.units[name].finditer(clause.text)
-        match = next((each for each in found if _value(each["number"]) >= least), None)
+        match = next((each for each in found if value_of(each["number"]) >= least), None)
         if match is None:
             continue
         if name == "steps" and words.uncounted.search(match["manner"] or ""):
             continue  # "raises two arms steps back"
-        number = _value(match["number"])
+        number = value_of(match["number"])
         number += 0.5 * bool(match.groupdict().get("half"))
         value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
         if not 0 < value <= MOST[field]:
@@ -542,18 +559,13 @@ def _counted(clause: Clause) -> Clause:
     if match := words.often.search(clause.text):
         number = words.adverbs[bare(match[0])]
     elif match := words.times.search(clause.text) or words.bare.search(clause.text):
-        number = int(_value(next(filter(None, match.groups()))))
+        number = int(value_of(next(filter(None, match.groups()))))
     else:
         return clause
     if not 1 < number <= MAX_COUNT:
         return clause
     rest = _without(clause.text, match)
     return replace(clause, text=rest, count=number) if rest else clause
-
-
-def _value(text: str) -> float:
-    number = all_words().numbers.get(bare(text))
-    return float(text.replace(",", ".")) if number is None else float(number)
 
 
 def _without(text: str, match: re.Match[str], stays: str = "") -> str:

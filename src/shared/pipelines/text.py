@@ -57,9 +57,10 @@ from .path import (
     time_path,
     turned,
 )
-from .sentence import GOING, Clause, Reading, clauses, goes_round, side_of, tidied, turns_head
+from .sentence import GOING, LOW, Clause, Reading, clauses, goes_round, side_of, turns_head
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
+from .words import tidied
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}
@@ -91,6 +92,7 @@ class SentenceGenerator:
         self._read: dict[str, list[Clause]] = {}
         self._scoped: dict[str, ScopeResult | None] = {}
         self._bent: dict[str, float] = {}
+        self._heights: dict[tuple[str, int], float] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
@@ -468,13 +470,11 @@ class SentenceGenerator:
     ) -> bool:
         """Where somebody sits or kneels down or gets up, the pelvis is known to do so as fast as
         people do; whether anybody does."""
-        scope, fps, found = self.generator.scope, self.card.fps, False
+        fps, found = self.card.fps, False
         for (one, other), join in zip(pairwise(parts), starts[1:], strict=False):
-            near = {self._nearest(one.text), self._nearest(other.text)}
-            if scope is None or not near & set(scope.still):
+            if not LOW & {self._nearest(one.text), self._nearest(other.text)}:
                 continue
-            pair = (Passage(each.text, 1) for each in (one, other))
-            begin, end = (natural_gait(self.generator, each, sampling).height for each in pair)
+            begin, end = (self._height(each.text, sampling) for each in (one, other))
             down = end - begin
             start = max(join - DOWN_AHEAD, 1)
             frames = min(round(abs(down) / DOWN_SPEED * fps), len(given.values) - start)
@@ -488,6 +488,14 @@ class SentenceGenerator:
             given.known[start : start + frames, ROOT_ROW, HEIGHT] = True
             found = True
         return found
+
+    def _height(self, text: str, sampling: Sampling) -> float:
+        """Metres of the pelvis in what a text asks for."""
+        key = text, sampling.seed
+        if key not in self._heights:
+            gait = natural_gait(self.generator, Passage(text, 1), sampling)
+            self._heights[key] = gait.height
+        return self._heights[key]
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""

@@ -7,7 +7,7 @@ one it is in.
 import re
 import unicodedata
 from collections.abc import Sequence
-from functools import cache, reduce
+from functools import cache, partial, reduce
 from itertools import groupby
 from typing import Any
 
@@ -25,6 +25,8 @@ UNITS = {  # of a sentence: what they measure, how much of it one is, and the le
     "metres": ("metres", 1.0, 0.0),
     "steps": ("steps", 1.0, 2.0),  # one step is mostly a way of saying where to
 }
+ARROW, STANDS = " → ", "stands still"  # what then follows; who waits
+ARRIVES = 1.5  # seconds until what is held so many seconds is there, and until it is no more
 EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
 # Classes without case and, but for the few of CJK_SIGN, without wide ranges: re spells out every
@@ -149,20 +151,25 @@ class Words:
         first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
         joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
         self.undone = re.compile(rf"{first}{joined}{undone}{ends}", re.I)
-        behind_it = rf"(?:\s*{_STOPS}\s*|\s+|(?<={CJK_SIGN}))"
-        further = rf"(?:\s*{_STOPS}\s*{joined}|{behind_it}{_any(joints)}\s*(?:{then}\s*)?"
-        further += (
-            rf"|{behind_it}{then}\s*{_COMMAS}?\s*|(?<={CJK_SIGN}))(?:{_any(all_of('who'))}\s*)?"
-        )
+        # None of them begins within a row of signs, which would be tried from each of them.
+        stops = rf"(?<![\s,.;!?:()。、，！？：；（）「」…—–])\s*{_STOPS}\s*"
+        blank = rf"(?:{stops}|\s+|(?<={CJK_SIGN}))"
+        further = rf"(?:{stops}{joined}|{blank}{_any(joints)}\s*(?:{then}\s*)?"
+        further += rf"|{blank}{then}\s*{_COMMAS}?\s*|(?<={CJK_SIGN}))"
+        further += rf"(?:{_any(all_of('who'))}\s*)?"
         halts = rf"{_any(all_of('halts'))}(?:\s*{_any(all_of('abruptly'))})*"
-        goes_for = rf"(?=\s*{_lead()}(?:{_DIGITS}|{_any(numbers)}))"
-        ends = rf"(?:{ends}|{goes_for})"
-        someone = rf"(?:{_any(all_of('who'))}|{_any(all_of('own'))}\s+{_LETTER}+)\s+"
-        alone = rf"^(?:{someone})?{halts}\W*$"
-        self.halts = re.compile(rf"{alone}|{further}{halts}{ends}", re.I)
+        lasting = _any([*all_of("seconds"), *all_of("minutes")])
+        amount = rf"(?:{_DIGITS}|{_any([*numbers, *fractions])})[\s-]*{lasting}"
+        ends = rf"(?:{ends}|(?=\s*{_lead()}{amount}))"
+        self.halts = re.compile(rf"{further}{halts}{ends}", re.I)
+        self.halt_alone = re.compile(rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$", re.I)
+        self.crouches = re.compile(_any(all_of("crouches")), re.I)
         self.head_turns = re.compile(_any(all_of("head_turns")), re.I)
-        self.downs = re.compile(_any(all_of("downs")), re.I)
-        self.ups = re.compile(rf"^(?:{someone})?{_any(all_of('ups'))}\W*$", re.I)
+        someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
+        someone += rf"|{CJK_SIGN}{{1,4}})?"
+        self.downs = re.compile(rf"^{someone}{_any(all_of('downs'))}", re.I)
+        again = rf"(?:\s*{_any(all_of('again'))})*"
+        self.ups = re.compile(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", re.I)
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))
         there = rf"(?:\s*{_any(all_of('there'))})"
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
@@ -250,6 +257,61 @@ def bare(word: str) -> str:
 def all_words() -> Words:
     """Those of all languages, read once."""
     return Words(list(load_yaml(packaged_config("measures.yaml")).values()))
+
+
+# ---------------------------------------------------------------- plain words
+
+
+def plain_text(text: str) -> str:
+    """A text with single blanks, its signs of one kind."""
+    return unicodedata.normalize("NFKC", " ".join(text.split()))
+
+
+def tidied(sentence: str) -> str:
+    """A sentence without greeting and thanks, with plain words for idioms and pauses and arrows for
+    the numbers of a list; it itself where it has nothing of these."""
+    words, plain = all_words(), plain_text(sentence)
+    text = plain_text(re.sub("([\u2460-\u2468])", r" \1) ", sentence))  # circled 1 to 9
+    text = words.greeting.sub("", text)
+    text = words.closing.sub("", text) or text
+    text = words.short.sub(lambda cut: cut[0][:-1], text)
+    text = words.halt_alone.sub(STANDS, text)
+    text = words.idiom.sub(lambda said: words.plainly[bare(plain_text(said[0]))], text)
+    text = words.undone.sub(_undone, text)
+    for name, pause in words.pauses.items():
+        factor = UNITS[name.partition("_")[2]][1]
+        text = pause.sub(partial(_pause, factor=factor), text)
+    text = text.removeprefix(ARROW.lstrip())
+    if text.endswith(ARROW):  # "he waves after two seconds"
+        *parts, rest = text.removesuffix(ARROW).split(ARROW)
+        text = ARROW.join([*parts[:-1], rest, *parts[-1:]])
+    numbers = list(NUMBERED.finditer(text))
+    if len(numbers) > 1 and [int(each[1]) for each in numbers] == list(range(1, len(numbers) + 1)):
+        lead = text[: numbers[0].start()].strip()
+        if lead.endswith((":", "：")) or len(lead.split()) < 3:  # "please do the following:"
+            text = text[numbers[0].end() :]
+        text = NUMBERED.sub(ARROW, text)
+    return sentence if text == plain else text
+
+
+def _pause(said: re.Match[str], factor: float) -> str:
+    seconds = (value_of(said["number"]) + 0.5 * bool(said["half"])) * factor
+    return f"{ARROW}{STANDS} for {seconds:g} seconds{ARROW}" if seconds else said[0]
+
+
+def _undone(said: re.Match[str]) -> str:
+    """Nothing, of arms that come down anyway; where they are held, a stand in which they do."""
+    before, more = said.string[: said.start()], said.string[said.end() :].strip(EDGES)
+    if not all_words().arms.search(before):
+        return said[0]
+    lowers = f"{ARROW}{STANDS} for {ARRIVES:g} seconds{ARROW if more else ''}"
+    return lowers if all_words().held.search(before + ",") else ""
+
+
+def value_of(text: str) -> float:
+    """The number that digits or a word say."""
+    number = all_words().numbers.get(bare(text))
+    return float(text.replace(",", ".")) if number is None else float(number)
 
 
 # ---------------------------------------------------------------- the same in a browser

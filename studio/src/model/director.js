@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { GOING, isPlain, SentenceReader } from "./sentence.js";
+import { GOING, isPlain, LOW, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
@@ -150,7 +150,7 @@ export class Director {
 
   /** Where somebody sits or kneels down or gets up, the pelvis does so as fast as people do; whether anybody does. */
   async ledDown(given, parts, starts, seed) {
-    const low = ({ text }) => this.scope.meta.still?.includes(this.nearest(text));
+    const low = ({ text }) => LOW.includes(this.nearest(text));
     let found = false;
     for (let i = 1; i < parts.length; i++) {
       const pair = parts.slice(i - 1, i + 1), heights = [];

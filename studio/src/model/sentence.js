@@ -2,12 +2,15 @@
 // with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const ARROW = " → ", STANDS = "stands still", SITS = "sits", BEFORE = 0.8, SQUATS = "squats down", HELD = "\u23f8", HALT = 2.5, ABOUT = 180;
-export const GOING = ["walk", "run", "crouch-walk"];
+const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180;
+const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
 const GOT_UP = { action: "stand", certainty: 1, arms: false };
-const UNHELD = [...GOING, "jump"];
+export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
+const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
+const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
@@ -52,8 +55,9 @@ export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
   constructor({ patterns, ...words }, read) {
-    Object.assign(this, words, { read: (text) => (this.first.ups.test(text) ? GOT_UP : read(text)) });
-    this.first = {}; this.each = {}; this.head = {};
+    const stands = () => read(STANDS).action === "stand";
+    Object.assign(this, words, { stands, read: (text) => (this.first.ups.test(text) && stands() ? GOT_UP : read(text)) });
+    this.first = {}; this.each = {}; this.head = {}; this.there = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
       this.each[name] = new RegExp(pattern, "giu");
@@ -62,32 +66,70 @@ export class SentenceReader {
   }
 
   clauses(sentence) {
-    const text = plain(this.tidied(sentence)), found = [];
+    const text = this.staying(plain(this.tidied(sentence))), found = [];
     for (const whole of this.ordered(text)) {
       let last = found.at(-1);
       for (let pieces = this.joined(whole); pieces.length;) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0]) : null;
         const clause = pair ?? this.parted(first) ?? this.measured(first);
-        found.push(...this.held(last ? this.asBefore(last, clause) : clause, first));
+        found.push(last ? this.asBefore(last, clause) : clause);
         last = null;
         pieces = pair ? others.slice(1) : others;
       }
     }
     let real = found.filter((clause) => clause.text);
     if (!real.length) real = [plainClause(sentence)];
-    const [down, up] = ["downs", "ups"].map((name) => this.first[name].test(real[0].text));
-    if (down || up) real.unshift({ ...plainClause(down ? STANDS : SITS), seconds: BEFORE });
-    return real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) }));
+    const { text: first } = real[0], stands = this.stands();
+    if (this.first.downs.test(first) && LOW.includes(surely(this.read(first)))) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
+    else if (stands && this.first.ups.test(first) && LOW.includes(this.read(SITS).action)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
+    return stands ? real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) })) : real;
   }
 
-  /** A clause; where it is held and nobody can stay in it, what comes to a stand behind it. */
-  held(clause, said) {
-    const action = clause.held ? this.read(clause.text).action : null;
-    if (!UNHELD.includes(action)) return [clause];
-    if (action === "crouch-walk") return [{ ...clause, text: SQUATS }];
-    const waits = said.includes(HELD) ? this.measured(said.slice(said.indexOf(HELD) + 1)).seconds : null;
-    return [{ ...clause, held: false, seconds: waits ? null : clause.seconds }, { ...plainClause(STANDS), seconds: waits ?? HALT }];
+  /** A text with marks behind what is held, and clauses for where a body comes to a stand. */
+  staying(text) {
+    for (let place = 0; ;) {
+      const found = ["held", "halts"].map((name) => this.match(name, text, place)).filter(Boolean);
+      if (!found.length) return text;
+      const match = found.reduce((a, b) => (b.index < a.index ? b : a)), end = match.index + match[0].length;
+      const long = this.lasting(text, end), stop = long ? long[0] : end;
+      let left = text.slice(0, match.index), said = "";
+      const own = left.slice(left.lastIndexOf(ARROW.trim()) + 1), last = spans(own, this.each.joint).at(-1);
+      let action = [last ? own.slice(last[1]) : own, own].map((each) => surely(this.reading(this.trimmed(each)))).find(Boolean) ?? null;
+      if (/[不没别勿]/u.test(left.slice(-4))) action = null;
+      const [stays, comes] = ["held", "halts"].map((name) => this.match(name, text, match.index, true));
+      if (stays && action === "crouch-walk") { // "crouches and stays down", not "sneaks, low"
+        const whole = surely(this.reading(this.trimmed(own + match[0])));
+        if (whole === "squat" || this.first.crouches.test(own)) [left, action] = [left.slice(0, left.length - own.length) + SQUATS, "squat"];
+      }
+      if (stays && HOLDABLE.includes(action)) said = long ? `${HELD}${long[1]}${HELD}` : HELD;
+      else if (stays && LOW.includes(action)) said = long ? ` for ${ARRIVES + long[1]} seconds` : " ";
+      else if (comes && action && ![...HOLDABLE, ...LOW].includes(action)) said = `${ARROW}${STANDS} for ${long ? long[1] : HALT} seconds`;
+      place = end;
+      if (!said) continue;
+      const more = strip(text.slice(stop));
+      text = `${left}${said}${more ? ARROW : ""}${more}`;
+      place = left.length + said.length;
+    }
+  }
+
+  /** A pattern's first match from a place on, or the one that begins there. */
+  match(name, text, place, there = false) {
+    const pattern = there ? (this.there[name] ??= new RegExp(this.each[name].source, "iuy")) : this.each[name];
+    pattern.lastIndex = place;
+    const found = pattern.exec(text);
+    pattern.lastIndex = 0;
+    return found;
+  }
+
+  /** Where seconds or minutes that stand at a place end, and how long they are. */
+  lasting(text, place) {
+    place += text.length - place - text.slice(place).trimStart().length;
+    for (const name of ["seconds", "minutes"]) {
+      const found = this.match(name, text, place, true);
+      if (found) return [place + found[0].length, this.measured(found[0]).seconds ?? 0];
+    }
+    return null;
   }
 
   /** A clause that names nothing but a side does what the one before it does, to that side. */
@@ -109,12 +151,14 @@ export class SentenceReader {
     let text = plain(sentence.replace(/([\u2460-\u2468])/gu, " $1) "));
     text = text.replace(this.first.greeting, "");
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
-    text = text.replace(this.each.held, HELD);
-    const going = text;
-    text = text.replace(this.each.halts, (said, ...found) => this.halt(said, found.find(Number.isInteger), going));
+    text = text.replace(this.first.halt_alone, STANDS);
     text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
     const armed = text;
-    text = text.replace(this.each.undone, (said, at) => (this.first.arms.test(armed.slice(0, at)) ? "" : said));
+    text = text.replace(this.each.undone, (said, ...found) => {
+      const at = found.find(Number.isInteger), before = armed.slice(0, at), more = strip(armed.slice(at + said.length));
+      if (!this.first.arms.test(before)) return said;
+      return this.first.held.test(`${before},`) ? `${ARROW}${STANDS} for ${ARRIVES} seconds${more ? ARROW : ""}` : "";
+    });
     for (const [name, factor] of PAUSES)
       text = text.replace(this.each[name], (...found) => {
         const { number, half } = found.at(-1), seconds = (this.value(number) + (half ? 0.5 : 0)) * factor;
@@ -130,12 +174,6 @@ export class SentenceReader {
     const lead = text.slice(0, first.index).trim();
     if (/[:：]$/u.test(lead) || lead.split(/\s+/u).filter(Boolean).length < 3) text = text.slice(first.index + first[0].length);
     return text.replace(NUMBERED, ARROW);
-  }
-
-  halt(said, at, text) {
-    const more = strip(text.slice(at + said.length)), arrow = at ? ARROW : "";
-    if (this.head.seconds.test(more) || this.head.minutes.test(more)) return `${arrow}${STANDS}`;
-    return `${arrow}${STANDS}${at || more ? ` for ${HALT} seconds` : ""}${more ? ARROW : ""}`;
   }
 
   ordered(text) {
@@ -304,7 +342,7 @@ export class SentenceReader {
     const sides = this.sides(halves), armsAlone = first.arms && second.arms;
     const named = halves.map((half, i) => this.naming(half, sides[i]));
     return {
-      clause: { ...this.measured(named[body]), meanwhile: named[other].replace(HELD, ""), side: sides[other] },
+      clause: { ...this.measured(named[body]), meanwhile: unmarked(named[other]), side: sides[other] },
       certainty: Math.min(first.certainty, second.certainty),
       armsAlone,
       oneArmEach: armsAlone && opposite(...sides),
@@ -330,9 +368,18 @@ export class SentenceReader {
     return this.first.head_turns.test(text);
   }
 
+  /** A clause with its measures and its mark taken out. */
   measured(text) {
-    let clause = { ...plainClause(text.replaceAll(HELD, "")), held: text.includes(HELD) };
-    text = clause.text;
+    const mark = MARK.exec(text);
+    if (!mark) return this.withMeasures(text);
+    const clause = this.withMeasures(unmarked(text));
+    if (isFar(clause) || clause.count > 1) return clause; // led, and over when it is done
+    const seconds = mark[1] === undefined ? clause.seconds : (clause.seconds ?? ARRIVES) + Number(mark[1]);
+    return { ...clause, seconds, held: true };
+  }
+
+  withMeasures(text) {
+    let clause = plainClause(text);
     const side = this.sideOf(text.replace(this.each.angle, " "));
     for (const [name, [field, factor, least]] of Object.entries(this.units)) {
       const match = [...clause.text.matchAll(this.each[name])].find(({ groups }) => this.value(groups.number) >= least);

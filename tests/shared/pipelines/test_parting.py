@@ -137,6 +137,69 @@ def test_two_clauses_are_parted_in_order(
     assert [clause.text for clause in sentences.clauses(sentence)] == parts
 
 
+# Who comes to a stand, what is held (⏸), who sits down and who gets up.
+STAYING = [
+    ("walks forward and stops", "walks forward / stands still 2.5"),
+    ("he walks to the door and waits three seconds", "he walks to the door / stands still 3"),
+    ("runs, comes to a halt for 3 seconds and waves", "runs / stands still 3 / waves"),
+    ("walks, waits, walks", "walks / stands still 2.5 / walks"),
+    ("walks for five seconds and waits for three seconds", "walks 5 / stands still 3"),
+    ("camina y se detiene", "camina / stands still 2.5"),
+    ("elle marche puis s'arrête", "elle marche / stands still 2.5"),
+    ("sie läuft und bleibt stehen", "sie läuft / stands still 2.5"),
+    ("歩いて止まる", "歩いて / stands still 2.5"),
+    ("往前走，停下，挥手", "往前走 / stands still 2.5 / 挥手"),
+    ("he stops", "stands still"),
+    ("raises his right hand and keeps it up", "raises his right hand ⏸"),
+    ("raises the left hand, holds it 5 seconds and bows", "raises the left hand ⏸ 6.5 / bows"),
+    ("raises the right arm, holds it up, and lowers it",
+     "raises the right arm ⏸ / stands still 1.5"),
+    ("a person crouches and stays down", "squats down ⏸"),
+    ("er duckt sich und bleibt unten", "squats down ⏸"),
+    ("levanta la mano derecha y la mantiene arriba", "levanta la mano derecha ⏸"),
+    ("il lève la main et la garde en l'air", "il lève la main ⏸"),
+    ("er hebt die rechte Hand und hält sie oben", "er hebt die rechte Hand ⏸"),
+    ("彼は手を上げてそのままでいる", "彼は手を上げて ⏸"),
+    ("兵士が右手を上げたままにする", "兵士が右手を上げた ⏸"),
+    ("他举起右手一直举着", "他举起右手 ⏸"),
+    ("a person sits down", "stands still 0.8 / a person sits down"),
+    ("a tired person stands up", "sits 0.8 / stands still"),
+    ("kneels, stands up and bows", "kneels / stands still / bows"),
+    ("他起身", "sits 0.8 / stands still"),
+    # and what only sounds like it
+    ("spins and stays in place", "spins / stays in place"),
+    ("a person turns 90 degrees and holds", "a person turns / stands still 2.5"),
+    ("raises a hand twice and keeps it up", "raises a hand and keeps it up"),
+    ("walks without stopping", "walks without stopping"),
+    ("stops the traffic", "stops the traffic"),
+    ("walks and stops two thieves", "walks and stops thieves"),
+    ("camina y espera un autobús", "camina y espera un autobús"),
+    ("sneaks, staying low", "sneaks, staying low"),
+    ("a boxer punches, keeping his hands up", "a boxer punches / keeping his hands up"),
+    ("a woman is sitting down on a bench and claps",
+     "a woman is sitting down on a bench / claps"),
+    ("doesn't sit down", "doesn't sit down"),
+    ("the sun rises", "the sun rises"),
+    ("the music stops", "the music stops"),
+    ("squats down and stands up again", "squats down / stands still"),
+    ("人が待つ", "人が待つ"),
+    ("彼が止まる", "彼が止まる"),
+    ("一直走，不要停下", "一直走,不要停下"),
+    ("他不停地走", "他不停地走"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("sentence", "said"), STAYING)
+def test_what_stays_is_told_from_what_goes_on(
+    sentence: str, said: str, sentences: SentenceGenerator
+):
+    found = [
+        f"{each.text}{' ⏸' * each.held}{f' {each.seconds:g}' if each.seconds else ''}"
+        for each in sentences.clauses(sentence)
+    ]
+    assert " / ".join(found) == said
+
+
 @pytest.mark.parametrize("sentence", ONE)
 def test_a_single_sentence_stays_whole(sentence: str, sentences: SentenceGenerator):
     assert len(sentences.clauses(sentence)) == 1

@@ -147,6 +147,10 @@ def test_what_is_held_stays(starter: TextToMotion):
     assert squat.root_position[0, 1] > 0.9 and squat.root_position[60:, 1].max() < 0.75
     speed = np.linalg.norm(np.diff(hand.positions(), axis=0), axis=-1).max() * 30
     assert speed < 5.0  # m/s, the hand's way up
+    (turn,) = made.generate(["a person turns 90 degrees and holds, then waves"], seconds=2)
+    assert turn.root_position[:, 1].min() > 0.8  # what is led is not held
+    (low,) = made.generate(["raises the left hand, holds it up, and lowers it"], seconds=3)
+    assert low.positions()[-1, JOINT_INDEX["l_wrist"], 1] < 1.0
     (walk,) = made.generate(["walks forward and stops"], seconds=3)
     steps = np.linalg.norm(np.diff(walk.root_position[:, [0, 2]], axis=0), axis=-1) * 30
     assert steps[:60].mean() > 0.9 and steps[-20:].mean() < 0.2

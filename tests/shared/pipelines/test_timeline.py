@@ -177,5 +177,5 @@ def test_along_a_path(generator: TextToMotion) -> None:
     timed = DrawnPath(drawn.points, times=np.array([0.0, 1.0, 2.0]))
     with pytest.raises(UserError, match="the path takes"):
         along_path(generator, TWO, timed, SETTINGS)
-    speed, facing, _ = natural_gait(generator, TWO.passages[0], SETTINGS)
+    speed, facing, *_ = natural_gait(generator, TWO.passages[0], SETTINGS)
     assert speed > 0 and abs(facing) <= np.pi
