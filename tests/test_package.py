@@ -30,6 +30,19 @@ def test_threads_of_training_sleep_while_they_wait_unless_told_otherwise(
     assert re.findall(r"OMP_WAIT_POLICY ?= ?'(\w+)'", done.stderr)[0] == found
 
 
+@pytest.mark.parametrize(("given", "found"), [({}, "None"), ({"WORLD_SIZE": "2"}, "ERROR")])
+def test_several_processes_do_not_each_warn_of_unused_weights(
+    given: dict[str, str], found: str
+) -> None:
+    told = "import os, src.train; print(os.environ.get('TORCH_CPP_LOG_LEVEL'))"
+    left_out = ("WORLD_SIZE", "TORCH_CPP_LOG_LEVEL")
+    own = {name: value for name, value in os.environ.items() if name not in left_out}
+    done = subprocess.run(
+        [sys.executable, "-c", told], cwd=ROOT, env=own | given, capture_output=True, text=True
+    )
+    assert done.stdout.strip() == found
+
+
 def test_the_licence_names_every_shipped_model() -> None:
     """Each as its own card says, and the wheel's metadata as all of them together."""
     cards = {

@@ -251,7 +251,9 @@ def fit_scope(
     trusts words that nobody knows (docs/experiments.md, section 23). Actions `without` are unknown.
     """
     action_of: dict[str, str] = {}
-    for record in {record.group: record for record in data.records("train")}.values():
+    # of a label group every clip that has words of its own
+    distinct = {record.group + str(record.captions): record for record in data.records("train")}
+    for record in distinct.values():
         if record.tag in without:
             continue
         captions = data.captions(record)

@@ -178,7 +178,7 @@ class ActionTask(Task):
     def _places(self) -> tuple[TextTower, dict[str, Tensor]]:
         """The tower with a place for each new combination; and the place [D] of every group."""
         groups: dict[str, ClipRecord] = {r.group: r for r in self.train.records}
-        captions = {group: self._asked(record) for group, record in groups.items()}
+        captions = self._asked_of_groups()
         before = self.before.text
         means = torch.stack(
             [
@@ -267,6 +267,13 @@ class ActionTask(Task):
         """Those, and what else is written by hand of the same labels."""
         written = (packaged_book().written(record.labels, c) for c in self.config.languages)
         return sorted({*self._captions(record), *(text for texts in written for text in texts)})
+
+    def _asked_of_groups(self) -> dict[str, list[str]]:
+        """Those of all clips of each group, whose own words differ."""
+        found: dict[str, set[str]] = {}
+        for record in {r.group + str(r.captions): r for r in self.train.records}.values():
+            found.setdefault(record.group, set()).update(self._asked(record))
+        return {group: sorted(texts) for group, texts in found.items()}
 
     def _said(self, records: Iterable[ClipRecord]) -> list[str]:
         """The captions of these clips, one after another."""
@@ -392,10 +399,10 @@ class ActionTask(Task):
         scope = replace(scope, still=done(scope.still, still_actions(data)))
         if self.config.actions:
             return scope
-        groups = {record.group: record for record in self.train.records}.values()
+        tags = {record.group: record.tag for record in self.train.records}
         said = {action: set[str]() for action in self.actions}
-        for record in groups:
-            said[record.tag].update(self._asked(record))
+        for group, asked in self._asked_of_groups().items():
+            said[tags[group]].update(asked)
         for action, own in said.items():
             texts = sorted(own)
             others = [text for each, of in said.items() if each != action for text in of]

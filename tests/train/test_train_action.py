@@ -70,8 +70,8 @@ def prepared_clips(folder: Path, action: str, captions: list[str], last: str = "
         clip = generate_clip(spec_for({"action": "bow", "count": "1"}, number), seed=number)
         write_bvh(clip, folder / "clips" / f"take{number}.bvh")
         own = action if number < 6 else last  # one clip has no label
-        said = captions if own == action else ["a person stands"]
-        lines.append(f"take{number},{own},{' | '.join(said)}")
+        said = captions[number % len(captions)] if own == action else "a person stands"
+        lines.append(f"take{number},{own},{said}")
     (folder / "captions.csv").write_text("\n".join(lines))
     source = MotionFolder.open(folder / "clips", captions=[folder / "captions.csv"])
     prepare([source], folder / "data", workers=1)

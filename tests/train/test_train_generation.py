@@ -19,12 +19,13 @@ from src.shared.config_schema import ConstraintShares
 from src.shared.data.prepared import PreparedData
 from src.shared.data.text_motion import TextMotionDataset
 from src.shared.errors import UsageError, UserError
+from src.shared.model.clip.out_of_domain import caption_key
 from src.shared.model.clip.pretrained import ClipBundle, tower_hash
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, HEIGHT, LEFT_CONTACT, ROOT_ROW, YAW_RATE
 from src.shared.motion.skeleton import NUM_JOINTS
 from src.train.task import Part, generator
-from src.train.text_stages import with_labels
+from src.train.text_stages import fit_scope, with_labels
 from src.train.train_generation import GenerationTask, draw_known, spread_timesteps
 
 
@@ -52,6 +53,21 @@ def test_it_learns_and_its_folder_generates(prepared: Path, clip: Path, tmp_path
     assert [motion.text for motion in motions] == [prompts[0]] * 2 + [prompts[1]] * 2
     assert all(np.isfinite(m.quaternions).all() and m.num_frames == 30 for m in motions)
     assert made.card.trained and made.scope is not None and made.card.tags
+
+
+@torch.no_grad()
+def test_the_scope_knows_the_words_of_every_clip(prepared: Path, clip: Path) -> None:
+    """Clips of one label group have sentences of their own."""
+    data, bundle = PreparedData.open(prepared), ClipBundle.from_pretrained(clip)
+    said = {record.id: f"zig{number} zags" for number, record in enumerate(data.records("train"))}
+    data.__dict__["_all_records"] = [
+        replace(record, captions={"en": [said[record.id]]}) if record.id in said else record
+        for record in data.records()
+    ]
+    assert len({record.group for record in data.records("train")}) < len(said)
+    scope = fit_scope(data, ("en",), bundle.clip.text, bundle.tokenizer)
+    assert {caption_key(text) for text in said.values()} <= scope.captions.keys()
+    assert {text.split()[0] for text in said.values()} <= scope.words
 
 
 def test_fine_tuning_starts_where_another_run_ended(

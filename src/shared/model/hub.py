@@ -45,6 +45,10 @@ OURS = re.compile(
     r"(tokenizer/)?\w[\w.-]*\.(json|safetensors|model|onnx)|README\.md|LICENSE(\.md|\.txt)?",
     re.ASCII,
 )
+# of Markdown; code is passed over
+LINK = re.compile(
+    r"```(?s:.*?)```|`[^`\n]+`|!?\[(?P<words>[^\[\]]*)\]\((?P<to>[^()\s]+)\)", re.ASCII
+)
 EVALUATOR = "evaluator"  # has a card of its own
 # kind: pipeline_tag, one of the hub's own, and what the field calls it
 TASKS = {
@@ -375,7 +379,8 @@ def render_card(
     from huggingface_hub import ModelCard, ModelCardData
 
     content, path = _content(folder, str(folder)), folder / README
-    text = whole = read_text(path, "a model card") if path.is_file() else _facts(content, repo)
+    whole = read_text(path, "a model card") if path.is_file() else _facts(content, repo)
+    text = whole = _without_dead_links(whole)
     given: dict[str, Any] = {}
     try:
         if text.startswith("---"):
@@ -398,6 +403,17 @@ def render_card(
             " or another that the hub knows"
         )
     return whole if merged == given else f"---\n{head.strip()}\n---\n\n{text.lstrip()}"
+
+
+def _without_dead_links(text: str) -> str:
+    """Markdown whose links to files that are not pushed are their words alone."""
+
+    def kept(link: re.Match[str]) -> str:
+        to = link["to"] or "#"
+        lives = re.match(r"[a-z][a-z+.-]*:|#", to) or OURS.fullmatch(to)
+        return link[0] if lives else link["words"]
+
+    return LINK.sub(kept, text)
 
 
 def _metadata(content: Mapping[str, Any], repo: str) -> dict[str, Any]:

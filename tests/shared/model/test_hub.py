@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -371,4 +372,18 @@ def test_shipped_cards_have_their_metadata(folder: Path):
     assert data.license == ("apache-2.0" if free else "cc-by-nc-4.0")
     assert data.library_name == "motionsuite" and data.pipeline_tag == TASKS[kind][0]
     assert TASKS[kind][1] in data.tags and data.datasets and data.eval_results
-    assert render_card(folder, REPO) == (folder / "README.md").read_text("utf-8"), "nothing to add"
+    card, own = render_card(folder, REPO), (folder / "README.md").read_text("utf-8")
+    assert card.count("\n") == own.count("\n") and card[:200] == own[:200], "nothing to add"
+    assert not re.search(r"\]\((?!https?://)", card), "a link that is dead there"
+
+
+def test_links_to_what_is_not_pushed_are_words_alone(model: Path):
+    own = (
+        "---\nlicense: mit\n---\n[a](../b.md#c) [`d`](../e/README.md) ![f](f.png) `g[0](h.i)`\n"
+        "[j](https://k.org/l) [m](#n) [the card](config.json)\n```\no[0](p.q)\n```\n"
+    )
+    (model / "README.md").write_text(own)
+    assert ModelCard(render_card(model, REPO)).text.strip() == (
+        "a `d` f `g[0](h.i)`\n"
+        "[j](https://k.org/l) [m](#n) [the card](config.json)\n```\no[0](p.q)\n```"
+    )
