@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from functools import lru_cache
 from hashlib import sha1
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -31,9 +31,6 @@ from .checkpoint import (
     read_card,
     resolve_model,
 )
-
-if TYPE_CHECKING:
-    pass
 
 PROGRAM, README = "motionsuite", "README.md"
 NAME = re.compile(

@@ -34,10 +34,8 @@ SHORTEST = 0.2  # seconds of an entry
 LONGEST = 7200.0  # seconds of a timeline
 SECONDS = 4.0  # of a text that comes without a length
 SHORTEST_LOOP = 1.0  # seconds
-MEANT, CREEP = (
-    math.radians(45.0),
-    0.4,
-)  # of one round: less is by chance
+MEANT = math.radians(45.0)  # of a round's turning: what is nearer to full circles is by chance
+CREEP = 0.12  # m/s on average of a round: less is by chance, the slowest walk .4
 
 
 @dataclass(frozen=True)
@@ -258,7 +256,7 @@ def make_loop(generator: TextToMotion, passages: Sequence[Passage], sampling: Sa
 
 def closed(features: Tensor, fps: float) -> Tensor:
     """A round [T,R,6] that turns by full circles, or as it did where it is far from one; and ends
-    where it began, if it ended near that."""
+    where it began, if it ended near that for its length."""
     features = features.clone()
     root = features[:, ROOT_ROW]
     turned = float(root[:, YAW_RATE].sum()) / fps
@@ -267,7 +265,7 @@ def closed(features: Tensor, fps: float) -> Tensor:
         root[:, YAW_RATE] -= miss * fps / len(root)
         path, heading = integrate_root(torch.cat((root, root[:1])), fps)
         away = path[-1] - path[0]
-        if float(away.norm()) < CREEP:
+        if float(away.norm()) < CREEP * len(root) / fps:
             x, z = -away[0] * fps / len(root), -away[2] * fps / len(root)
             sine, cosine = torch.sin(heading[:-1]), torch.cos(heading[:-1])
             root[:, FORWARD] += x * sine + z * cosine

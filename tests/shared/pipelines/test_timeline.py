@@ -144,7 +144,13 @@ def test_a_loop_goes_on(generator: TextToMotion, frames: int) -> None:
 
 @pytest.mark.parametrize(
     ("turn", "forward", "closes"),
-    [(6.0, 0.01, True), (-340.0, 1.0, True), (90.0, 1.0, False), (-10.0, 1.2, False)],
+    [
+        (6.0, 0.01, True),
+        (-340.0, 1.0, True),
+        (90.0, 1.0, False),
+        (-10.0, 1.2, False),
+        (3.0, 0.2, False),  # who goes as slowly as that does go
+    ],
 )
 def test_a_round_in_place_or_a_full_circle_closes(turn: float, forward: float, closes: bool):
     features = torch.zeros(120, 23, 6)
