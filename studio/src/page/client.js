@@ -19,16 +19,19 @@ export class Client {
 
   async start() {
     const { settings, parts } = this;
+    let worker = null;
     try {
-      const worker = this.worker = this.begin();
+      worker = this.worker = this.begin();
       worker.onmessage = ({ data }) => this.heard(data);
       const failed = new Promise((_, reject) => { worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
       const opened = Promise.race([this.send("open", { settings, parts }), failed]);
       const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
       await opened;
-      helped?.then((port) => port && this.send("helper", { port }, [port]));
+      helped?.then((port) => port && this.worker === worker && this.send("helper", { port }, [port]))
+        .catch(() => null); // it was stopped; without help one worker does all
     } catch {
-      this.worker?.terminate();
+      if (worker && this.worker !== worker) return; // stopped while it opened: the next one opens
+      worker?.terminate();
       this.worker = null;
       this.answer = handler();
       await this.send("open", { settings, parts });
