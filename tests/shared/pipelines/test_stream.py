@@ -202,7 +202,7 @@ def test_a_generator_of_prompts(generator: TextToMotion) -> None:
 def test_what_a_standing_body_begins_is_as_it_is_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """After a clap, which nobody recorded, a wave is a recorded one still, and no frame jumps;
     after a bow a kick comes, which did not where the window knew of the bow."""
-    starter = TextToMotion.from_pretrained("starter", device="cpu")
+    starter = TextToMotion.from_pretrained("starter", device="cpu", runtime="onnx")
 
     def made(*texts: str) -> list[torch.Tensor]:
         return list(stream_features(starter, [Passage(text, 120) for text in texts]))

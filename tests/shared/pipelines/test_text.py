@@ -41,7 +41,7 @@ def sentences(generator: TextToMotion) -> SentenceGenerator:
 
 @pytest.fixture(scope="module")
 def loaded() -> TextToMotion:
-    return TextToMotion.from_pretrained("starter", device="cpu")
+    return TextToMotion.from_pretrained("starter", device="cpu", runtime="onnx")
 
 
 @pytest.fixture
