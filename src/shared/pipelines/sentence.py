@@ -8,7 +8,7 @@ that is of it decides where no word does.
 
 import math
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -143,6 +143,13 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     if not stands:
         return found
     return [replace(each, text=words.ups.sub(STANDS, each.text)) for each in found]
+
+
+def whole(sentence: str, found: Sequence[Clause]) -> str:
+    """A sentence as one sample hears it: without what it denies, if one plain clause is left."""
+    text, first = tidied(sentence), found[0]
+    cut = len(found) == 1 and first.plain and first.text != _trimmed(plain_text(text))
+    return first.text if cut else text
 
 
 def _surely(reading: Reading) -> str | None:

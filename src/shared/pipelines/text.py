@@ -14,6 +14,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import accumulate, pairwise
 
 import numpy as np
@@ -57,10 +58,9 @@ from .path import (
     time_path,
     turned,
 )
-from .sentence import GOING, LOW, Clause, Reading, clauses, goes_round, side_of, turns_head
+from .sentence import GOING, LOW, Clause, Reading, clauses, goes_round, side_of, turns_head, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .words import tidied
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}
@@ -122,12 +122,12 @@ class SentenceGenerator:
         Raises:
             UserError: as `TextToMotion.generate`.
         """
-        asked, prompts = prompts, [tidied(prompt) for prompt in prompts]
+        asked, prompts = prompts, [whole(prompt, self.clauses(prompt)) for prompt in prompts]
         sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
-        whole = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
-        plain = [index for index, one in enumerate(whole) if one]
+        fit = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
+        plain = [index for index, one in enumerate(fit) if one]
         made: dict[int, list[Motion]] = {}
 
         def told(done: int) -> None:
@@ -164,17 +164,15 @@ class SentenceGenerator:
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
             if guidance_scale is None:
                 scale = INSISTING * self.generator.network.generation.guidance_scale
-        for index, prompt in enumerate(prompts):
-            if not whole[index]:
-                for warning in filter(None, self._warnings(prompt, again=False)):
-                    log.warning("%s", warning)
-                made[index] = []
-                for sample in range(num_samples):
-                    own = replace(sampling, seed=derived_seed(seed, 1000 * sample))
-                    made[index].append(
-                        self._one(prompt, lengths[index], labels[index], own, foot_lock)
-                    )
-                    told(sum(map(len, made.values())))
+        for index in (index for index, one in enumerate(fit) if not one):
+            for warning in filter(None, self._warnings(prompts[index], again=False)):
+                log.warning("%s", warning)
+            made[index] = []
+            for sample in range(num_samples):
+                own = replace(sampling, seed=derived_seed(seed, 1000 * sample))
+                motion = self._one(prompts[index], lengths[index], labels[index], own, foot_lock)
+                made[index].append(motion)
+                told(sum(map(len, made.values())))
         for index in plain:  # what no sample helped, unless it is warned of already
             lines = [self.missed(asked[index], motion) for motion in made[index]]
             found = self._scope_result(prompts[index])
@@ -198,9 +196,7 @@ class SentenceGenerator:
         action = self._nearest(first.text)
         if others or not first.plain or self._turns(first):
             return None
-        if scope is None or action not in scope.checked:
-            return None
-        if self._does(first.text, motion):
+        if scope is None or action not in scope.checked or self._does(first.text, motion):
             return None
         return (
             f"prompt {prompt!r}, read as {action!r}: none of {TRIES} samples shows that, by how"
@@ -222,7 +218,7 @@ class SentenceGenerator:
         parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
         if len(texts) == 1:  # known without its measures, or with them
-            lines = self.generator.scope_warnings([tidied(prompt)], again=again)
+            lines = self.generator.scope_warnings([whole(prompt, parts)], again=again)
         if len(texts) > 1 or not (parts[0].plain or lines == [None]):
             lines = self.generator.scope_warnings(texts, again=again)
         alone = "asks the head alone to turn, which this model has not learned"
@@ -279,11 +275,10 @@ class SentenceGenerator:
         """How far a passage of so many frames is from showing what its clause asks for, and, where
         that is done in place, from ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.generator.scope
-        action, side = self._nearest(clause.text), side_of(clause.text)
+        action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
         if scope is None or action is None or frames < LEAST * fps:
             return None
-        rests, latest = action in scope.gestures, self._window()
-        if wanted is None and not rests:
+        if not (rests := action in scope.gestures) and wanted is None:
             return None
 
         def miss(features: Tensor) -> float:
@@ -314,8 +309,7 @@ class SentenceGenerator:
 
     def _nearest(self, text: str) -> str | None:
         """The action that is nearest to a text, whether or not it is what the text tells of."""
-        found = self._scope_result(text)
-        return found.nearest[0] if found and found.nearest else None
+        return found.nearest[0] if (found := self._scope_result(text)) and found.nearest else None
 
     def _scope_result(self, text: str) -> ScopeResult | None:
         if text not in self._scoped:
@@ -522,7 +516,7 @@ class SentenceGenerator:
         if self._turns(clause):
             given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
-            given = self._led(passage, clause, sampling)
+            given = self._led(passage, clause, sampling, timed=exactly is not None)
         elif clause.count > 1:
             once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
             frames = once * clause.count
@@ -574,16 +568,23 @@ class SentenceGenerator:
         speed = natural_gait(self.generator, Passage(clause.text, 1, tag), sampling).speed
         return (clause.steps or 0) * math.sqrt(60 * WALK_RATIO / speed)
 
-    def _led(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
-        """So many metres, at the pace and in the direction that are the clause's own."""
+    def _led(
+        self, passage: Passage, clause: Clause, sampling: Sampling, *, timed: bool
+    ) -> Constraint:
+        """So many metres, at the pace and in the direction that are the clause's own; in its
+        seconds, unless nobody goes so fast and it is not `timed`."""
         speed, facing, *_ = natural_gait(self.generator, passage, sampling)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
         fps, seconds = self.card.fps, clause.seconds
         last = None if seconds is None else max(seconds * fps - 1, 1) / fps
+        pace = partial(time_path, DrawnPath(ahead), fps=fps, speed=speed, facing=facing)
         try:
-            path = time_path(DrawnPath(ahead), fps=fps, speed=speed, seconds=last, facing=facing)
+            path = pace(seconds=last)
         except UserError as error:
-            raise UserError(f"{passage.text!r}: {error}") from None
+            if timed:
+                raise UserError(f"{passage.text!r}: {error}") from None
+            log.warning("%r: %s; until then it takes its own time", passage.text, error)
+            path = pace(seconds=None)
         return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()
 
     def _held(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:

@@ -32,7 +32,7 @@ export class Director {
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    let lines = texts.length === 1 ? [this.scope.warning(this.reader.tidied(prompt))] : []; // known without its measures, or with them
+    let lines = texts.length === 1 ? [this.scope.warning(this.reader.whole(prompt, parts))] : []; // known without its measures, or with them
     if (texts.length > 1 || !(isPlain(parts[0]) || lines[0] === null)) lines = texts.map((text) => this.scope.warning(text));
     const head = texts.find((text) => this.reader.turnsHead(text));
     return lines.find(Boolean) ?? (head ? `“${head}” asks the head alone to turn, which this model has not learned.` : null);
@@ -86,7 +86,7 @@ export class Director {
     const long = longest !== null && frames > round(longest * FPS);
     if (parts.length > 1 || !isPlain(parts[0]) || long || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
-    const said = this.reader.tidied(prompt), action = this.nearest(said);
+    const said = this.reader.whole(prompt, parts), action = this.nearest(said);
     let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
@@ -185,7 +185,14 @@ export class Director {
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
       const last = clause.seconds === null ? null : Math.max(clause.seconds * FPS - 1, 1) / FPS;
-      const path = timePath([[0, 0], [0, clause.metres]], { ...gait, seconds: last });
+      const pace = (seconds) => timePath([[0, 0], [0, clause.metres]], { ...gait, seconds });
+      let path;
+      try {
+        path = pace(last);
+      } catch (error) {
+        if (exactly !== null) throw error;
+        path = pace(null); // nobody goes so fast: it takes its own time
+      }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
     if (count > 1) {

@@ -86,6 +86,12 @@ export class SentenceReader {
     return stands ? real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) })) : real;
   }
 
+  /** A sentence as one sample hears it: without what it denies, if one plain clause is left. */
+  whole(sentence, found) {
+    const text = this.tidied(sentence), [{ text: first }] = found;
+    return found.length === 1 && isPlain(found[0]) && first !== this.trimmed(plain(text)) ? first : text;
+  }
+
   /** A text with marks behind what is held, and clauses for where a body comes to a stand. */
   staying(text) {
     for (let place = 0; ;) {

@@ -273,6 +273,22 @@ def test_a_greeting_and_thanks_say_nothing(starter: TextToMotion):
     assert sentences.scope_warnings([polite]) == sentences.scope_warnings([plain])
 
 
+def test_what_is_denied_is_not_heard(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    denied, plain = "She doesn't run, she walks.", "she walks"
+    made, bare = (sentences.generate([prompt], seconds=2.0)[0] for prompt in (denied, plain))
+    assert np.array_equal(made.quaternions, bare.quaternions) and made.text == denied
+    assert sentences.scope_warnings([denied]) == sentences.scope_warnings([plain])
+
+
+def test_metres_that_nobody_goes_in_their_seconds_take_their_own(
+    sentences: SentenceGenerator, caplog: pytest.LogCaptureFixture
+):
+    fast, other = sentences.generate(["walk ten metres in two seconds", "a person waves"])
+    assert fast.seconds > 2.5 and other.num_frames == 120
+    assert "too long for its time" in caplog.text
+
+
 def test_what_kinematics_miss_is_sampled_again(
     starter: TextToMotion, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ):
