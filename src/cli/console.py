@@ -311,10 +311,10 @@ def print_columns(
 
 
 def note_replaced(paths: Iterable[Place], folder: Place) -> None:
-    """Before writing: say how many of these files an earlier run has left in the folder."""
+    """Before writing: say how many of these files are in the folder already."""
     if found := sum(path.exists() for path in paths):
         verb = "is" if found == 1 else "are"
-        tell(f"note: {counted(found, 'file')} of an earlier run in {folder} {verb} replaced")
+        tell(f"note: {counted(found, 'file')} in {folder} {verb} replaced")
 
 
 class Stopwatch:

@@ -63,7 +63,7 @@ def test_a_seed_means_the_same_motion(model: str, tmp_path: Path) -> None:
 def test_replaced_files_are_told(model: str, tmp_path: Path) -> None:
     arguments = (*PROMPTS, "--model", model, "--out", str(tmp_path), "--format", "npz")
     assert "replaced" not in generate(*arguments)[1]
-    assert "2 files of an earlier run" in generate(*arguments)[1]
+    assert "2 files in" in generate(*arguments)[1]
 
 
 def test_far_prompts_are_warned_of_by_name(model: str, tmp_path: Path) -> None:

@@ -102,7 +102,7 @@ def resample_motion(motion: Motion, fps: float) -> Motion:
     if abs(fps / motion.fps - 1) < SAME_RATE or motion.num_frames < 2:
         return replace(motion, fps=fps)
     last = motion.num_frames - 1
-    times = np.arange(int(last / motion.fps * fps + 1e-6) + 1) * (motion.fps / fps)
+    times = np.arange(int(last / motion.fps * fps + 1e-3) + 1) * (motion.fps / fps)
     before = np.minimum(times.astype(int), last - 1)
     part = (times - before).astype(np.float32)
     q = torch.as_tensor(motion.quaternions)

@@ -19,6 +19,7 @@ import numpy as np
 from ..config_loader import did_you_mean, parse_yaml
 from ..errors import UsageError, UserError
 from ..io.files import read_text
+from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
@@ -296,9 +297,11 @@ def in_a_loop(
     *,
     foot_lock: bool | None = None,
 ) -> ControlledMotion:
-    """One motion whose end leads into its beginning, again and again.
+    """One motion whose end is its beginning, again and again: a round of N frames has a closing key
+    behind them, where a player begins anew.
 
-    Where it travels, each round goes on from where the last one led.
+    Where it travels, each round goes on from where the last one led. A round that does not turn
+    faces +Z on average.
 
     Returns:
         errors: see `join_error`; travel, turn: metres and degrees of one round.
@@ -314,8 +317,11 @@ def in_a_loop(
         "travel": float(np.hypot(after.x - before.x, after.z - before.z)),
         "turn": float(np.degrees(after.heading - before.heading)),
     }
-    once = rounds.frames(frames, 2 * frames)
-    return ControlledMotion(moved_to(once, Place()), errors)
+    once = rounds.frames(frames, 2 * frames + 1)
+    heading, start = heading_of(once), Place()
+    if math.radians(abs(errors["turn"])) < MEANT:
+        start = Place(heading=float(heading[0] - heading[:-1].mean()))
+    return ControlledMotion(moved_to(once, start), errors)
 
 
 def join_error(rounds: Motion, frames: int) -> dict[str, float]:

@@ -170,6 +170,7 @@ def test_a_loop_of_a_stand_neither_creeps_nor_turns(starter: TextToMotion):
     timeline = Timeline((Passage("a person stands", 90),))
     made = SentenceGenerator(starter).loop(timeline, Sampling(seed=1))
     assert made.errors["travel"] < 1e-3 and abs(made.errors["turn"]) < 0.01
+    np.testing.assert_allclose(*made.motion.positions()[[0, -1]], atol=0.02)
     assert made.warning is None
 
 

@@ -165,9 +165,11 @@ def test_a_round_in_place_or_a_full_circle_closes(turn: float, forward: float, c
 
 def test_a_loop_of_several_texts(generator: TextToMotion) -> None:
     made = in_a_loop(generator, TWO, SETTINGS)
-    assert made.motion.num_frames == 110
+    assert made.motion.num_frames == 111  # with the closing key
     assert made.errors["join_acceleration"] < 2 * made.errors["p99_acceleration"] + 5
     np.testing.assert_allclose(made.motion.root_position[0, [0, 2]], 0, atol=1e-5)
+    way = np.linalg.norm(made.motion.root_position[-1, [0, 2]])
+    assert way == pytest.approx(made.errors["travel"], abs=1e-4)
     with pytest.raises(UserError, match=r"0\.5 s is too short"):
         in_a_loop(generator, Timeline((Passage("a person walks", 15),)), SETTINGS)
 
