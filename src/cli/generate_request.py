@@ -392,7 +392,11 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
         lines = [line.strip() for line in text.splitlines() if line.strip()]
         table = [(number, {"prompt": line}) for number, line in enumerate(lines, 1)]
     else:
-        reader = csv.DictReader(io.StringIO(text), restkey="more", restval="", strict=True)
+        head = text.partition("\n")[0]
+        mark = ";" if ";" in head and "," not in head else ","  # as spreadsheets of much of Europe
+        reader = csv.DictReader(
+            io.StringIO(text), restkey="more", restval="", strict=True, delimiter=mark
+        )
         try:
             columns = [name.strip().lower() for name in reader.fieldnames or []]
             reader.fieldnames = columns

@@ -88,6 +88,9 @@ def test_prompts_of_a_file(tmp_path: Path) -> None:
     (tmp_path / "b.csv").write_text(rows, encoding="utf-8")
     texts = ["waves, then bows", "jumps"]
     assert read_prompts(tmp_path / "b.csv") == (texts, [2.5, None], ["wave", None])
+    rows = "tag;prompt;seconds\nwave;waves, then bows;2.5\n;jumps;\n"
+    (tmp_path / "c.csv").write_text(rows, encoding="utf-8")
+    assert read_prompts(tmp_path / "c.csv") == (texts, [2.5, None], ["wave", None])
 
 
 def test_unknown_format_is_told_before_the_model_loads() -> None:

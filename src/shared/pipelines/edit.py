@@ -38,7 +38,7 @@ from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
 from ..tensors import Tensor, torch
-from .stream import OVERLAP, Passage, stream_features
+from .stream import OVERLAP, Miss, Passage, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
@@ -298,17 +298,19 @@ def fill(
     sampling: Sampling,
     *,
     tag: str | None = None,
+    miss: Miss | None = None,
 ) -> tuple[Tensor, Constraint]:
-    """Raw features [T,R,6] with everything that is not known made anew, and what was known.
+    """Raw features [T,R,6] with everything that is not known made anew, and what was known;
+    windows are sampled again until nothing is missed.
 
     Raises:
         UserError: as `stream_features`.
     """
     constraint = given.constraint
-    features = fill_free(generator, text, constraint, sampling, tag=tag)
+    features = fill_free(generator, text, constraint, sampling, tag=tag, miss=miss)
     if given.rejoin is not None:
         bent = bend_back(features, given, fps=generator.card.fps)
-        features = fill_free(generator, text, bent, sampling, tag=tag)
+        features = fill_free(generator, text, bent, sampling, tag=tag, miss=miss)
         constraint = replace(constraint, values=bent.values, known=bent.known)
     return features, constraint
 
@@ -320,6 +322,7 @@ def fill_free(
     sampling: Sampling,
     *,
     tag: str | None = None,
+    miss: Miss | None = None,
 ) -> Tensor:
     """Raw features [T,R,6]; only the frames around what is not known go through the network."""
     rows = generator.network.motion_rows
@@ -331,7 +334,7 @@ def fill_free(
     near = constraint.window(start, stop, fps=generator.card.fps)
     pieces = stream_features(
         generator,
-        [Passage(text, stop - start, tag)],
+        [Passage(text, stop - start, tag, miss=miss)],
         constraint=lambda first, last: near.window(first, last, fps=generator.card.fps),
         sampling=sampling,
     )
@@ -379,6 +382,7 @@ def edited(
     *,
     tag: str | None = None,
     foot_lock: bool | None = None,
+    miss: Miss | None = None,
 ) -> ControlledMotion:
     """A motion of which much is given.
 
@@ -389,13 +393,14 @@ def edited(
         sampling: how.
         tag: action label beside the text.
         foot_lock: None = the model's own.
+        miss: of the frames that are made anew; None = one sample will do.
 
     Returns:
         errors: rotation and root, see `kept_error`; frames and entries, the share that was kept.
     """
     if text is None:
         sampling = replace(sampling, guidance_scale=0.0)
-    features, constraint = fill(generator, text or NO_TEXT, given, sampling, tag=tag)
+    features, constraint = fill(generator, text or NO_TEXT, given, sampling, tag=tag, miss=miss)
     motion = generator.post_processor(
         features,
         constraint.known,

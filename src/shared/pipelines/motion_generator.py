@@ -437,11 +437,12 @@ class MotionGenerator:
 
         Args:
             given: of clips; see `edit.edit_clip` and `edit.continue_clips`.
-            prompt: what the rest shows, warned of where it does not, as far as kinematics tell;
-                None = nothing is said.
+            prompt: what the rest shows, sampled again and warned of where it does not, as far as
+                kinematics tell; None = nothing is said.
             tag, sampling, foot_lock: see `generate`.
         """
-        made = edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock)
+        miss = None if prompt is None else self.sentences.unseen(prompt)
+        made = edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock, miss=miss)
         free = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
         if prompt is not None and len(free):
             anew = made.motion.frames(free[0], free[-1] + 1)

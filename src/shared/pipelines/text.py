@@ -6,8 +6,6 @@ with what the clause measures as a constraint: a path of so many metres, a headi
 many degrees, in full circles where it asks for a spin or a way round, by a right angle where a walk
 is to turn. Where kinematics tell whether the action is there, and how often, what misses it is
 sampled again (`metrics.measurements`).
-
-Letters: T frames, R rows (bones, root track).
 """
 
 import logging
@@ -189,9 +187,8 @@ class SentenceGenerator:
         return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
-        """A line if a motion does not show the action of its prompt, as far as kinematics tell,
-        although it was sampled again; None where it does, where nobody can say, as of an action
-        that kinematics do not see, and of sentences with clauses, measures or a way that turns."""
+        """A line if a motion does not show the action of its prompt, although it was sampled again;
+        None where kinematics do not see it, of clauses, measures and a way that turns as well."""
         (first, *others), scope = self.clauses(prompt), self.generator.scope
         action = self._nearest(first.text)
         if others or not first.plain or self._turns(first):
@@ -206,13 +203,17 @@ class SentenceGenerator:
     def unless_shown(self, prompt: str, motion: Motion) -> str | None:
         """A line if what was made of a clip does not show the action of its prompt."""
         first, *others = self.clauses(prompt)
-        action, scope = self._nearest(first.text), self.generator.scope
-        if others or scope is None or action not in scope.checked or self._does(first.text, motion):
+        if others or self._does(first.text, motion):
             return None
         return (
-            f"prompt {prompt!r}: what was made anew does not show {action!r}, by how joints move;"
-            " look at it, and try a longer span, another seed, or a clip that stands there"
+            f"prompt {prompt!r}: what was made anew does not show {self._nearest(first.text)!r}, by"
+            " how joints move; look at it, try a longer span, another seed, or a clip that stands"
         )
+
+    def unseen(self, prompt: str) -> Miss | None:
+        """1 for frames that do not show what a prompt asks for, else 0; None: nobody can say."""
+        first, *others = self.clauses(prompt)
+        return None if others else self._miss(Clause(first.text), math.inf)
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
         parts, lines = self.clauses(prompt), list[str | None]()
@@ -271,7 +272,7 @@ class SentenceGenerator:
         gained = new is not old and self._does(prompt, new) and not self._does(prompt, old)
         return new if gained else old
 
-    def _miss(self, clause: Clause, frames: int) -> Miss | None:
+    def _miss(self, clause: Clause, frames: float) -> Miss | None:
         """How far a passage of so many frames is from showing what its clause asks for, and, where
         that is done in place, from ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.generator.scope

@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { GOING, isPlain, LOW, SentenceReader } from "./sentence.js";
+import { GOING, isPlain, LOW, plainClause, SentenceReader } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
@@ -313,6 +313,12 @@ export class Director {
     };
   }
 
+  /** 1 for frames that do not show the action of a text, as far as kinematics tell, else 0. */
+  unseen(text) {
+    const [{ text: first }, ...others] = this.reader.clauses(text);
+    return others.length ? null : this.miss(plainClause(first), Infinity);
+  }
+
   // ---------------------------------------------------------------- a path, clips
 
   async alongPath({ blocks, path }, seed, options) {
@@ -348,7 +354,8 @@ export class Director {
       const own = mode === "between" ? motion : lastFrames(motion, kept);
       given = keepEnds(own, mode === "between" ? (clip.second ?? motion) : null, kept, frames, mode === "between" && !clip.second);
     }
-    const { features, known } = await fill(this.sampler, text || NO_TEXT, given, seed, { ...options, ...(text ? {} : { guidance: 0 }) });
+    const more = text ? { miss: this.unseen(text) } : { guidance: 0 };
+    const { features, known } = await fill(this.sampler, text || NO_TEXT, given, seed, { ...options, ...more });
     return postProcess(features, this.settings.post, { known, text, place: given.place });
   }
 }

@@ -93,8 +93,9 @@ export async function fillFree(sampler, text, constraint, seed, options = {}) {
   for (let t = 0; t < frames; t++) if (cut(constraint.known, t, t + 1).includes(0)) free.push(t);
   if (!free.length) return constraint.values;
   const start = Math.max(0, free[0] - OVERLAP), stop = Math.min(frames, free[free.length - 1] + 1 + OVERLAP);
-  const made = await streamFeatures(sampler, [{ text, frames: stop - start }], seed, {
-    ...options,
+  const { miss, ...rest } = options;
+  const made = await streamFeatures(sampler, [{ text, frames: stop - start, miss }], seed, {
+    ...rest,
     constraint: windowOf(constraint, start, stop),
   });
   return joinArrays([cut(constraint.values, 0, start), made, cut(constraint.values, stop, frames)]);

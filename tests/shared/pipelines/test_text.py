@@ -20,6 +20,7 @@ from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
 from src.shared.pipelines.motion_generator import PromptSampler
 from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import TextJudge
@@ -164,6 +165,28 @@ def test_who_sits_down_stands_before_and_does_not_fall(starter: TextToMotion):
         ends = (height[:10].mean(), height[75:].mean())
         assert min(ends) < 0.7 and max(ends) > 0.9 and bool(ends[0] > ends[1]) is ("down" in text)
         assert np.abs(np.diff(height)).max() * 30 < 1.3  # m/s; 2 where it is not led
+
+
+def test_what_is_made_anew_is_sampled_until_it_shows(
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch
+):
+    sentences = SentenceGenerator(starter)
+    (walk,) = sentences.generate(["a person walks forward"], seconds=2.0)
+    given, raises = edit_clip(walk, joints=chosen_joints(["right-arm"])), "raises the right arm"
+    counted = list[int]()
+    sample = starter.sample_features
+
+    def counting(*arguments: Any, **options: Any) -> Any:
+        counted.append(1)
+        return sample(*arguments, **options)
+
+    monkeypatch.setattr(starter, "sample_features", counting)
+    miss = sentences.unseen(raises)
+    made = edited(starter, raises, given, Sampling(seed=1), miss=miss)
+    assert miss is not None and len(counted) < TRIES
+    assert sentences.unless_shown(raises, made.motion) is None
+    assert sentences.unless_shown("raises the left arm", made.motion) is not None
+    assert sentences.unseen("walks, then bows") is None
 
 
 def test_a_loop_of_a_stand_neither_creeps_nor_turns(starter: TextToMotion):

@@ -14,7 +14,8 @@ from ...errors import UsageError, UserError
 from ...formats.readers.bvh import BvhClip, read_bvh
 from ...formats.readers.glb import GlbSkeleton, read_glb_skeleton
 from ...formats.registry import check_motion, write_clip
-from ...formats.rig import Rig, RigClip, canonical_rig, motion_clip, turned
+from ...formats.rig import Rig, RigClip, canonical_rig, motion_clip, rescaled, turned
+from ...formats.writers.bvh import CENTIMETRE
 from ...formats.writers.glb import write_glb_character
 from ...io.files import same_place
 from ...motion.motion import Motion
@@ -169,6 +170,8 @@ class Target:
         clip = self.clip(motion)
         if path.suffix.lower() != ".bvh":  # all others are +Y up
             clip = turned(clip, upright(self.up))
+        elif self.path.suffix.lower() != ".bvh":  # one in metres; who has a BVH has chosen a unit
+            clip = rescaled(clip, CENTIMETRE)
         return write_clip(clip, path)
 
 

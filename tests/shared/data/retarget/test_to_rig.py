@@ -174,6 +174,8 @@ def test_a_character_keeps_its_mesh_and_gets_the_motion(tmp_path: Path) -> None:
     assert differences(motion, back)[0] <= 1e-4
     with pytest.raises(UserError, match="own file"):
         target.write(motion, path)
+    bvh = read_bvh(target.write(motion, tmp_path / "moved.bvh"))  # in centimetres, as all of ours
+    np.testing.assert_allclose(bvh.offsets[1:], 100 * target.rig.offsets[1:], atol=1e-3)
 
 
 def test_a_bvh_skeleton_keeps_names_offsets_orders_and_unit(tmp_path: Path) -> None:
