@@ -36,7 +36,7 @@ def checked_formats(text: str, known: Iterable[str]) -> list[str]:
         raise UsageError(
             f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
             f" written here; choose from {', '.join(known)}"
-            + ("; Blender makes fbx of glb, see docs/blender.md" if "fbx" in unknown else "")
+            + ("; Blender makes fbx of bvh, see docs/blender.md" if "fbx" in unknown else "")
         )
     return names
 
