@@ -24,7 +24,7 @@ from src.train.train_clip import ClipTask, gather
 
 @pytest.mark.usefixtures("held_back")
 def test_it_learns_and_leaves_a_folder(prepared: Path, tmp_path: Path) -> None:
-    settings = ("steps=200", "batch-size=16", "learning-rate=0.005", "log-every=10")
+    settings = ("steps=100", "batch-size=16", "learning-rate=0.005", "log-every=10")
     task = train_clip(clip_config(prepared, tmp_path, *settings, "cosine-weight=0"))
     lines = [json.loads(line) for line in (tmp_path / "log.jsonl").read_text().splitlines()]
     losses = [line["loss"] for line in lines if "loss" in line]
