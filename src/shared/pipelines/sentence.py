@@ -59,7 +59,7 @@ class Reading(NamedTuple):
 
 
 Read = Callable[[str], Reading]
-GOT_UP = Reading("stand", 1.0)  # as surely as an action is known
+GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -136,7 +136,7 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
             pieces = others[1:] if pair else others
     found = [clause for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
-    if words.downs.match(first) and _surely(known(first)) in LOW:
+    if words.downs.match(first) and known(first).action in LOW:
         found.insert(0, Clause(STANDS, seconds=BEFORE))
     elif stands and words.ups.match(first) and read(SITS).action in LOW:
         found.insert(0, Clause(SITS, seconds=BEFORE))
@@ -330,9 +330,13 @@ def _joined(text: str, read: Read) -> list[str]:
             before = [
                 way
                 for (action, other, was_far), way in ways[start].items()
-                if action != reading.action or {other, side} == _SIDES or (far and was_far)
+                if action != reading.action
+                or (reading.certainty > SURE and ({other, side} == _SIDES or (far and was_far)))
             ]
-            if before and reading.certainty > SURE:
+            led = far and reading.action in GOING  # its measure says that it is to be done
+            led |= clause.seconds is not None and reading.action == "stand"
+            sure = SURE_AT_MARK if led else SURE
+            if before and reading.certainty > sure:
                 way = max(before, key=_Way.rank).further(part, reading.certainty)
                 here[last] = max(way, here.get(last, way), key=_Way.rank)
         ways.append(here)
@@ -378,8 +382,9 @@ def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None
 
 
 def _blanks(text: str) -> list[Span]:
-    """Where words meet, in writing without blanks all places."""
-    return [match.span() for match in re.finditer(rf"\s+|(?<={CJK_SIGN})(?={CJK_SIGN})", text)]
+    """Where words meet, in writing without blanks all places but behind the first sign."""
+    found = re.finditer(rf"\s+|(?<={CJK_SIGN}{{2}})(?={CJK_SIGN}{{2}})", text)
+    return [match.span() for match in found]
 
 
 # ---------------------------------------------------------------- at once

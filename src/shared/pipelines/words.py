@@ -41,7 +41,11 @@ _STOPS = (
     r"|(?<=\s)[-/+&|](?=\s)|(?<!\S)\d[.)](?=\s))"
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
-_DIGITS = r"\d+(?:[.,]\d+)?"
+_ONES = "一二三四五六七八九"
+_TENS = f"(?:[{_ONES}]十|十(?=[{_ONES}]))[{_ONES}]?"  # 十 alone is a word of its own
+_DIGITS = rf"(?:\d+(?:[.,]\d+)?|(?:[{_ONES}两]百零?(?:{_TENS}|[{_ONES}])?|{_TENS}))"
+# Japanese says what is not done before its denial.
+_NOT_THIS = "[^、。，,]+?(?:[のん](?:では|じゃ)なく(?:て)?|の?(?:代|か)わりに)[、，,]?"
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
 NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
 
@@ -179,6 +183,14 @@ class Words:
         self.about = re.compile(_any(all_of("about")), re.I)
         refused = rf"{_any(all_of('refuses'))}.*?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
+        self.instead = re.compile(rf"{_any(all_of('instead'))}\s*|{_NOT_THIS}", re.I)
+        goals = {to: plain for table in tables for plain, many in table.get("goals", {}).items()
+                 for to in many}  # fmt: skip
+        there = rf"{CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
+        nowhere = _any([*all_of("left"), *all_of("right"), *all_of("nowhere")])
+        goal = rf"(?P<way>{_any(goals)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
+        self.goal = re.compile(goal, re.I)
+        self.plainly |= {bare(to): plain for to, plain in goals.items()}
         sideways = _any([*owned, *all_of("toward")])
         self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
@@ -277,6 +289,8 @@ def tidied(sentence: str) -> str:
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     text = words.halt_alone.sub(STANDS, text)
     text = words.idiom.sub(lambda said: words.plainly[bare(plain_text(said[0]))], text)
+    text = words.goal.sub(lambda said: words.plainly[bare(plain_text(said["way"]))], text)
+    text = words.instead.sub("", text).lstrip(EDGES) or text
     text = words.undone.sub(_undone, text)
     for name, pause in words.pauses.items():
         factor = UNITS[name.partition("_")[2]][1]
@@ -311,7 +325,17 @@ def _undone(said: re.Match[str]) -> str:
 def value_of(text: str) -> float:
     """The number that digits or a word say."""
     number = all_words().numbers.get(bare(text))
+    if number is None and re.fullmatch(f"[{_ONES}两零十百]+", text):
+        total, last = 0, 0
+        for sign in text.replace("零", ""):
+            tens = {"十": 10, "百": 100}.get(sign, 0)
+            total, last = (total + (last or 1) * tens, 0) if tens else (total, _value_of_sign(sign))
+        return float(total + last)
     return float(text.replace(",", ".")) if number is None else float(number)
+
+
+def _value_of_sign(sign: str) -> int:
+    return 2 if sign == "两" else _ONES.index(sign) + 1
 
 
 # ---------------------------------------------------------------- the same in a browser

@@ -4,7 +4,7 @@
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180;
 const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
-const GOT_UP = { action: "stand", certainty: 1, arms: false };
+const GOT_UP = { action: "stand", certainty: 3, arms: false };
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
@@ -13,7 +13,7 @@ const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
-const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff])(?=[\u3040-\u30ff\u3400-\u9fff])/gu;
+const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
 export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false });
 
 export const isPlain = (clause) =>
@@ -81,7 +81,7 @@ export class SentenceReader {
     let real = found.filter((clause) => clause.text);
     if (!real.length) real = [plainClause(sentence)];
     const { text: first } = real[0], stands = this.stands();
-    if (this.first.downs.test(first) && LOW.includes(surely(this.read(first)))) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
+    if (this.first.downs.test(first) && LOW.includes(this.read(first).action)) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
     else if (stands && this.first.ups.test(first) && LOW.includes(this.read(SITS).action)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
     return stands ? real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) })) : real;
   }
@@ -159,6 +159,8 @@ export class SentenceReader {
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
     text = text.replace(this.first.halt_alone, STANDS);
     text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
+    text = text.replace(this.each.goal, (...found) => this.plainly[bare(found.at(-1).way)]);
+    text = stripStart(text.replace(this.each.instead, "")) || text;
     const armed = text;
     text = text.replace(this.each.undone, (said, ...found) => {
       const at = found.find(Number.isInteger), before = armed.slice(0, at), more = strip(armed.slice(at + said.length));
@@ -254,10 +256,12 @@ export class SentenceReader {
       for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
         if (asides[start] && (start || asides.slice(0, stop).every(Boolean))) continue; // stays with what stands before it, or else behind it
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
-        const { action, certainty } = this.reading(part), side = this.sideOf(part), far = isFar(this.measured(part));
+        const clause = this.measured(part), far = isFar(clause);
+        const { action, certainty } = this.reading(part), side = this.sideOf(part);
+        const led = (far && GOING.includes(action)) || (clause.seconds !== null && action === "stand"); // its measure says that it is to be done
         const last = `${action} ${side} ${far}`;
-        const before = [...ways[start].values()].filter((way) => way.action !== action || opposite(way.side, side) || (far && way.far));
-        if (!before.length || certainty <= SURE) continue;
+        const before = [...ways[start].values()].filter((way) => way.action !== action || (certainty > SURE && (opposite(way.side, side) || (far && way.far))));
+        if (!before.length || certainty <= (led ? SURE_AT_MARK : SURE)) continue;
         const { parts, passed, certainty: sum } = best(before);
         const way = { parts: [...parts, part], passed, certainty: sum + certainty, action, side, far };
         if (!here.has(last) || asGood(way, here.get(last))) here.set(last, way);
@@ -427,7 +431,13 @@ export class SentenceReader {
   }
 
   value(text) {
-    return this.numbers[bare(text)] ?? Number(text.replace(",", "."));
+    const number = this.numbers[bare(text)];
+    if (number !== undefined || !/^[一二三四五六七八九两零十百]+$/u.test(text)) return number ?? Number(text.replace(",", "."));
+    let total = 0, last = 0;
+    for (const sign of text.replaceAll("零", ""))
+      if ("十百".includes(sign)) [total, last] = [total + (last || 1) * (sign === "十" ? 10 : 100), 0];
+      else last = sign === "两" ? 2 : "一二三四五六七八九".indexOf(sign) + 1;
+    return total + last;
   }
 
   without(text, match, stays = "") {

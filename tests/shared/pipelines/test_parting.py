@@ -7,7 +7,7 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.pipelines.text import SentenceGenerator
 
 TWO = [
-    ("walks to the table and then sits down", ["walks to the table", "sits down"]),
+    ("walks to the table and then sits down", ["walks", "sits down"]),
     ("waves before sitting down", ["waves", "sitting down"]),
     ("after jumping twice, he claps", ["jumping", "he claps"]),
     ("geht nach vorne und winkt dann", ["geht nach vorne", "winkt"]),
@@ -122,6 +122,11 @@ DENIED = [
     ("不要跑，走", "walk"),
     ("don't move, please", "stand"),
     ("don't move, stand still", "stand"),
+    ("他不是走，是跑", "run"),
+    ("走るのではなく、ゆっくり歩く", "walk"),
+    ("instead of running she walks", "walk"),
+    ("anstatt zu rennen, geht sie", "walk"),
+    ("au lieu de courir, il marche", "walk"),
 ]
 
 
@@ -140,7 +145,7 @@ def test_two_clauses_are_parted_in_order(
 # Who comes to a stand, what is held (⏸), who sits down and who gets up.
 STAYING = [
     ("walks forward and stops", "walks forward / stands still 2.5"),
-    ("he walks to the door and waits three seconds", "he walks to the door / stands still 3"),
+    ("he walks to the door and waits three seconds", "he walks / stands still 3"),
     ("runs, comes to a halt for 3 seconds and waves", "runs / stands still 3 / waves"),
     ("walks, waits, walks", "walks / stands still 2.5 / walks"),
     ("walks for five seconds and waits for three seconds", "walks 5 / stands still 3"),
@@ -166,7 +171,21 @@ STAYING = [
     ("a tired person stands up", "sits 0.8 / stands still"),
     ("kneels, stands up and bows", "kneels / stands still / bows"),
     ("他起身", "sits 0.8 / stands still"),
+    ("geht zur Bank und setzt sich", "geht / setzt sich"),
+    ("va hasta la mesa y se sienta", "camina / se sienta"),
+    ("elle marche jusqu'au canapé puis s'assied", "elle marche / s'assied"),
+    ("他慢慢走到桌子旁边坐下来", "他慢慢走 / 坐下来"),
+    ("setzt sich in Bewegung", "geht"),
+    ("siéntate", "stands still 0.8 / siéntate"),
+    ("steh bitte auf", "sits 0.8 / stands still"),
+    ("stand still for three seconds, next run five metres", "stand still 3 / run"),
+    ("turn left, go straight for two metres, turn right",
+     "turn left / go straight / turn right"),
+    ("gira a la derecha 90 grados y avanza un metro", "gira a la derecha / avanza"),
     # and what only sounds like it
+    ("walks to the left, then waves", "walks to the left / waves"),
+    ("va a la derecha y saluda", "va a la derecha / saluda"),
+    ("walks to the beat", "walks to the beat"),
     ("spins and stays in place", "spins / stays in place"),
     ("a person turns 90 degrees and holds", "a person turns / stands still 2.5"),
     ("raises a hand twice and keeps it up", "raises a hand and keeps it up"),
