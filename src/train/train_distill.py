@@ -1,19 +1,21 @@
-"""A text model of one or a few steps, from one of many: guidance folded in, constraints heard.
+"""A text model of few steps, from one of many: guidance folded in, constraints heard.
 
 motion-tools train distill init=starter [key=value ...]
 
 First the teacher samples, as `generate` has it sample, with guidance, and with known entries as in
 its own training (`draw_known`). What it starts from and passes through, and where it ends, is kept
 in the output folder. Then the student, which begins with the teacher's weights, learns to go from
-each of these states to the end at once, by the text alone: the end of the deterministic path from
-noise (Luhman and Luhman 2021, knowledge distillation), and from the steps that it will visit on the
-way (consistency, Song et al. 2023, with targets that do not move).
+each of the states that it will visit to the next one in one step, where the teacher took several,
+and without the pass of no text: progressive distillation (Salimans and Ho 2022, section 3) with
+guidance folded in (Meng et al. 2023), on the teacher's own path from noise.
 
 Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import torch
@@ -62,7 +64,7 @@ class TrainDistillConfig(TrainConfig):
     init: str = "starter"  # the teacher
     student: str | None = None  # taught before, to go on from; None = it begins as the teacher
     teacher_steps: int = Field(8, ge=1)
-    student_steps: int = Field(2, ge=1)  # it can take fewer, too
+    student_steps: int = Field(2, ge=1)
     pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
     first_share: float = Field(0.5, ge=0, le=1)  # of the pairs that begin with noise alone
     condition_dropout: float = Field(0.05, ge=0, lt=1)  # motions of no text, which edits ask for
@@ -76,13 +78,14 @@ class Pairs:
     """B motions that the teacher sampled.
 
     Attributes:
-        end: [B,T,R,6] z-scored, what came of it, known entries in it.
+        aims: [B,N,T,R,6], the x_0 that takes a step of the student from each state to the next,
+            known entries in it; z-scored; the last is the end.
         mask: [B,T] bool; known: [B,T,R,6] bool, entries that it was told.
         place: [B,D] of the text; tag [B] long; drop [B] bool, rows that heard no text.
         states: [B,N,T,R,6] that it was in at the student's steps; noise first.
     """
 
-    end: Tensor
+    aims: Tensor
     mask: Tensor
     known: Tensor
     place: Tensor
@@ -93,10 +96,10 @@ class Pairs:
 
 @dataclass(frozen=True)
 class DistillBatch(Conditions):
-    """One of the states of each, known entries in it, seen [B,T,R,6]; end and place as sampled."""
+    """One of the states of each, seen [B,T,R,6], and what it aims at; known entries in both."""
 
     seen: Tensor
-    end: Tensor
+    aim: Tensor
     place: Tensor
 
 
@@ -216,17 +219,31 @@ class DistillTask(Task):
         model_fn = self.diffusion.held(
             guided(denoiser, own, none, scale), known, clean, noise, shown=known
         )
-        states: list[Tensor] = []
+        path: list[Tensor] = []
 
         def watched(x_t: Tensor, t: Tensor) -> Tensor:
             if int(t[0]) in self.steps:
-                states.append(torch.where(known, clean, x_t))
+                path.append(x_t)
             return model_fn(x_t, t).float()
 
         sampler = make_sampler(self.diffusion, "ddim", config.teacher_steps)
         with autocast(self.compute):
-            end = sampler.run(watched, noise)
-        return Pairs(end, mask, known, place, tag, drop, torch.stack(states, dim=1))
+            path.append(sampler.run(watched, noise))
+        aims, states = (
+            torch.stack([torch.where(known, clean, each) for each in found], dim=1)
+            for found in (self._aims(path), path[:-1])
+        )
+        return Pairs(aims, mask, known, place, tag, drop, states)
+
+    def _aims(self, path: list[Tensor]) -> list[Tensor]:
+        """The x_0 [B,T,R,6] of N DDIM steps along N + 1 states (Salimans and Ho 2022, eq. 8)."""
+        bars = [self.diffusion.alpha_bar(t) for t in (*self.steps, -1)]
+        found = []
+        for (x_t, bar), (following, next_bar) in pairwise(zip(path, bars, strict=True)):
+            kept = math.sqrt((1 - next_bar) / (1 - bar))  # of the noise
+            gained = math.sqrt(next_bar) - kept * math.sqrt(bar)
+            found.append((following - kept * x_t) / gained)
+        return found
 
     # ------------------------------------------------------------ batches
 
@@ -238,7 +255,7 @@ class DistillTask(Task):
         order = numpy_generator("order", config.seed, turn).permutation(config.pair_batches)
         pairs = _read(self._file("train", int(order[place])))
         draws = generator("states", config.seed, part.step, part.index)
-        size = len(pairs.end)
+        size = len(pairs.place)
         later = torch.randint(1, max(2, len(self.steps)), (size,), generator=draws)
         first = torch.rand(size, generator=draws) < config.first_share
         return self._at(pairs, later.masked_fill(first | (len(self.steps) == 1), 0))
@@ -253,7 +270,7 @@ class DistillTask(Task):
             known=pairs.known,
             provenance=torch.full_like(pairs.tag, PROVENANCES.index("captured")),
             seen=pairs.states[torch.arange(len(chosen)), chosen],
-            end=pairs.end,
+            aim=pairs.aims[torch.arange(len(chosen)), chosen],
             place=pairs.place,
         )
 
@@ -262,9 +279,9 @@ class DistillTask(Task):
     def training_step(self, module: nn.Module, batch: DistillBatch) -> dict[str, Tensor]:
         """The weighted losses of one batch."""
         output = module(batch.seen, as_features(batch.place), batch).float()
-        made = torch.where(batch.known, batch.end, output)  # sampling puts the known entries back
+        made = torch.where(batch.known, batch.aim, output)  # sampling puts the known entries back
         rest = batch.seen, batch.seen, batch.timesteps, batch.mask  # noise says nothing of x_0
-        losses: dict[str, Tensor] = self.loss(made, batch.end, *rest)
+        losses: dict[str, Tensor] = self.loss(made, batch.aim, *rest)
         return losses
 
     def validation(self, module: nn.Module) -> dict[str, float]:
@@ -274,7 +291,7 @@ class DistillTask(Task):
         for number in range(self.num_held_back):
             pairs = _read(self._file("held", number))
             for place, step in enumerate(self.steps):
-                batch = self._at(pairs, torch.full((len(pairs.end),), place))
+                batch = self._at(pairs, torch.full((len(pairs.place),), place))
                 loss = self.training_step(module, to_device(batch, device))["loss"]
                 found.append({f"loss-{step}": loss.item()})
         return means(found)
@@ -323,7 +340,7 @@ def _is_made(file: Path, made_of: dict[str, str]) -> bool:
 
 def _write(file: Path, pairs: Pairs, made_of: dict[str, str]) -> None:
     tensors = {key: value.cpu().contiguous() for key, value in vars(pairs).items()}
-    half = {key: tensors[key].half() for key in ("states", "end")}
+    half = {key: tensors[key].half() for key in ("states", "aims")}
     with atomic_write(file) as temporary:
         save_file({**tensors, **half}, temporary, metadata=made_of)
 
@@ -359,7 +376,7 @@ app = Stage(
     TrainDistillConfig,
     DistillTask,
     "train_distill",
-    "Teach a copy of a text model to sample in one or a few steps, without guidance.",
+    "Teach a copy of a text model to sample in few steps, without guidance.",
     network=lambda settings, given: network_of(settings.init, given),
     flags={"init": "the teacher"},
     example="--data data/mine --init starter --output runs/quick",

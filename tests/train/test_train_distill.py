@@ -1,4 +1,4 @@
-"""Distillation: a student goes in one step where its teacher goes in several, as told as it."""
+"""Distillation: a student takes one step where its teacher takes several, as told as it."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from tiny_stage import (
 
 from src.shared.config_loader import load_train
 from src.shared.errors import UsageError, UserError
-from src.shared.model.diffusion import guided
+from src.shared.model.diffusion import guided, make_sampler
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
@@ -57,7 +57,7 @@ def missed(task: DistillTask) -> float:
     return float(torch.stack(losses).mean())
 
 
-def test_a_student_learns_where_its_teacher_ends(
+def test_a_student_learns_the_steps_of_its_teacher(
     prepared: Path, teacher: Path, tmp_path: Path
 ) -> None:
     untaught = distill(prepared, teacher, tmp_path / "student", "steps=1", "learning-rate=1e-9")
@@ -92,7 +92,7 @@ def test_pairs_are_what_the_teacher_samples(prepared: Path, teacher: Path, tmp_p
     pairs = _read(tmp_path / "student" / "pairs" / "train-00000.safetensors")
     assert pairs.states.shape[1] == 2 and pairs.known.any() and pairs.drop.any()
     assert torch.equal(pairs.states[:, 0][pairs.known], pairs.states[:, 1][pairs.known])
-    assert torch.equal(pairs.end[pairs.known], pairs.states[:, 0][pairs.known])
+    assert torch.equal(pairs.aims[:, 1][pairs.known], pairs.states[:, 0][pairs.known])
     free = ~pairs.known.flatten(1).any(1)
     assert free.any() and pairs.mask[free].all()
 
@@ -105,7 +105,12 @@ def test_pairs_are_what_the_teacher_samples(prepared: Path, teacher: Path, tmp_p
     model_fn = guided(denoiser, {"text": text, **shared}, {"text": null, **shared}, scale)
     noise = pairs.states[free, 0]
     end = task.diffusion.sample(model_fn, noise.shape, sampler="ddim", num_steps=4, x_T=noise)
-    assert torch.allclose(end, pairs.end[free], atol=0.02)  # both ends are kept in half precision
+    assert torch.allclose(end, pairs.aims[free, 1], atol=0.02)  # kept in half precision
+    # One step towards an aim is two of the teacher's.
+    halfway = make_sampler(task.diffusion, "ddim", 2).step(
+        pairs.aims[free, 0], task.steps[0], noise
+    )
+    assert torch.allclose(halfway, pairs.states[free, 1], atol=0.02)
 
 
 def test_a_stopped_run_goes_on_with_its_pairs(
