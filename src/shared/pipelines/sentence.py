@@ -306,8 +306,9 @@ def _joined(text: str, read: Read) -> list[str]:
     who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
     if denial and not (who and read(who).certainty > SURE):
         rest = _trimmed(text[denial.end() :])
-        if read(_measured(rest).text).certainty > SURE:  # not in "don't move, please"
-            text = rest
+        instead, denied = read(_measured(rest).text), read(_trimmed(denial[0]))
+        if instead.certainty > SURE or (rest and _surely(denied) not in (None, instead.action)):
+            text = rest  # not in "don't move, please"
     borders = [match.span() for match in all_words().joint.finditer(text)]
     pieces = [
         (start, stop)
@@ -376,6 +377,8 @@ def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None
     for stop, start in cuts:
         left, right = _trimmed(text[:stop]), _trimmed(text[start:])
         first, second = (read(_measured(half).text) for half in (left, right))
+        if second is GOT_UP and _differ(first, second):  # "se | pone de pie" is surer, and wrong
+            return left, right
         if _differ(first, second, sure):
             best, sure = (left, right), min(first.certainty, second.certainty)
     return best

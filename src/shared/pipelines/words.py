@@ -151,6 +151,12 @@ class Words:
             )
         }
         ends = rf"(?=\s*(?:$|{_STOPS}|{_any(joints)}|{then}))"
+        verb = rf"(?<!{_LETTER})(?P<verb>{_LETTER}+(?:\s+{_any(all_of('reflexive'))}){{0,2}})\s+"
+        rest = rf"\s+(?P<rest>(?:{_any(all_of('again'))}\s+)?{_any(all_of('particles'))}){ends}"
+        self.late_seconds, self.late_minutes = (
+            re.compile(rf"{verb}(?P<pause>{after}\s*{measure(name)}){rest}", re.I)
+            for name in ("seconds", "minutes")
+        )
         undone = rf"{_any(all_of('undone'))}(?:\s*{_any(all_of('again'))})*"
         first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
         joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
@@ -292,6 +298,8 @@ def tidied(sentence: str) -> str:
     text = words.goal.sub(lambda said: words.plainly[bare(plain_text(said["way"]))], text)
     text = words.instead.sub("", text).lstrip(EDGES) or text
     text = words.undone.sub(_undone, text)
+    for late in (words.late_seconds, words.late_minutes):
+        text = late.sub(r"\g<pause> \g<verb> \g<rest>", text)
     for name, pause in words.pauses.items():
         factor = UNITS[name.partition("_")[2]][1]
         text = pause.sub(partial(_pause, factor=factor), text)

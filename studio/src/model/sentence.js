@@ -167,6 +167,7 @@ export class SentenceReader {
       if (!this.first.arms.test(before)) return said;
       return this.first.held.test(`${before},`) ? `${ARROW}${STANDS} for ${ARRIVES} seconds${more ? ARROW : ""}` : "";
     });
+    for (const name of ["late_seconds", "late_minutes"]) text = text.replace(this.each[name], "$<pause> $<verb> $<rest>");
     for (const [name, factor] of PAUSES)
       text = text.replace(this.each[name], (...found) => {
         const { number, half } = found.at(-1), seconds = (this.value(number) + (half ? 0.5 : 0)) * factor;
@@ -242,7 +243,8 @@ export class SentenceReader {
     const who = denial && this.trimmed(text.slice(0, denial.index)); // "she" of "she doesn't walk, she jumps"
     if (denial && !(who && this.read(who).certainty > SURE)) {
       const rest = this.trimmed(text.slice(denial.index + denial[0].length));
-      if (this.reading(rest).certainty > SURE) text = rest; // not in "don't move, please"
+      const instead = this.reading(rest), denied = surely(this.read(this.trimmed(denial[0])));
+      if (instead.certainty > SURE || (rest && denied && denied !== instead.action)) text = rest; // not in "don't move, please"
     }
     const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
     const pieces = borders.slice(1)
@@ -284,6 +286,7 @@ export class SentenceReader {
     for (const [stop, start] of cuts) {
       const halves = [text.slice(0, stop), text.slice(start)].map((half) => this.trimmed(half));
       const [first, second] = halves.map((half) => this.reading(half));
+      if (second === GOT_UP && differ(first, second)) return halves; // "se | pone de pie" is surer, and wrong
       if (differ(first, second, sure)) [found, sure] = [halves, Math.min(first.certainty, second.certainty)];
     }
     return found;

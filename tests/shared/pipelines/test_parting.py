@@ -25,7 +25,7 @@ TWO = [
     ("前に歩いてから手を振る", ["前に歩いて", "手を振る"]),
     ("座る前に手を振る", ["手を振る", "座る"]),
     ("ジャンプした後に拍手する", ["ジャンプした", "拍手する"]),
-    ("ひざまずいて、それから立ち上がる", ["ひざまずいて", "stands still"]),
+    ("ひざまずいて、それから立ち上がる", ["stands still", "ひざまずいて", "stands still"]),
     ("走る前にストレッチをする", ["ストレッチをする", "走る"]),
     ("向前走然后挥手", ["向前走", "挥手"]),
     ("坐下之前挥手", ["挥手", "坐下"]),
@@ -127,6 +127,9 @@ DENIED = [
     ("instead of running she walks", "walk"),
     ("anstatt zu rennen, geht sie", "walk"),
     ("au lieu de courir, il marche", "walk"),
+    ("别跑，踮着脚尖走", "crouch-walk"),
+    ("don't jump, tiptoe across", "crouch-walk"),
+    ("no salta sino que camina", "walk"),
 ]
 
 
@@ -178,6 +181,14 @@ STAYING = [
     ("setzt sich in Bewegung", "geht"),
     ("siéntate", "stands still 0.8 / siéntate"),
     ("steh bitte auf", "sits 0.8 / stands still"),
+    ("steht langsam auf", "sits 0.8 / stands still"),
+    ("er kniet nieder und steht nach drei Sekunden wieder auf",
+     "stands still 0.8 / er kniet nieder / stands still 3 / stands still"),
+    ("springt und dreht sich nach 2 Sekunden um", "springt / stands still 2 / dreht sich um"),
+    ("agenouillez-vous", "stands still 0.8 / agenouillez-vous"),
+    ("después de dar palmadas se pone de pie", "dar palmadas / stands still"),
+    ("walks to the window and kneels", "walks / kneels"),
+    ("marche vers la table et s'agenouille", "marche / s'agenouille"),
     ("stand still for three seconds, next run five metres", "stand still 3 / run"),
     ("turn left, go straight for two metres, turn right",
      "turn left / go straight / turn right"),
