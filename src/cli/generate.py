@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from ..shared.pipelines.ranking import ScoreTable
     from ..shared.pipelines.timeline import Timeline
 
+LONG_SONG = 150.0  # seconds
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
 
 
@@ -241,6 +242,8 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
 
         path = read_path(drawn)
     generator, song, clock, style = listen(request, audio, bodies=True)
+    if (seconds := min(song.seconds, request.seconds or song.seconds)) > LONG_SONG:
+        tell(f"{seconds / 60:.0f} minutes of song: this takes a while, --seconds for less")
     lines = generator.text.scope_warnings(said) if said else [None]
     found = [
         generator.dance(

@@ -12,7 +12,7 @@ Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts
 
 import re
 import unicodedata
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
@@ -245,13 +245,20 @@ class Choreographer:
             self._figures[counts] = self.memory.figures(counts)
         return self._figures[counts]
 
-    def choose(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
+    def choose(
+        self,
+        slots: Sequence[Slot],
+        wish: Wish,
+        seed: int,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> list[Figures] | None:
         """One figure a slot (each `Figures` of one row); None where nothing fits most of them.
 
         Args:
             slots: S ≥ 1.
             wish: of the sentence.
             seed: with the song and the wish it decides everything.
+            progress: told the slots done of S.
         """
         rng = np.random.default_rng(seed)
         options: list[Figures] = []
@@ -301,13 +308,17 @@ class Choreographer:
             spread, before = spread[best] + own, dimensions[best, column]
             options.append(found)
             back.append(best)
+            if progress is not None:
+                progress(index + 1, len(slots))
         at_end = int(value.argmin())
         chosen = [at_end]
         for best in back[:0:-1]:
             chosen.append(int(best[chosen[-1]]))
         return [each.rows(np.array([row])) for each, row in zip(options, chosen[::-1], strict=True)]
 
-    def draw(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
+    def draw(
+        self, slots: Sequence[Slot], wish: Wish, seed: int, _: object = None
+    ) -> list[Figures] | None:
         """As `choose`, any figure that fits by its tempo."""
         rng, found = np.random.default_rng(seed), []
         for slot in slots:

@@ -300,7 +300,7 @@ class SongPerformer:
         wish = wish_of(prompt, here, named_kinds())
         there = f"figures that there are: {', '.join(sorted(here))}"
         if wish is None and (other := unshown(prompt, here)):
-            self._tell(f"no figure shows {other!r}: the model dances alone; {there}")
+            self._tell(f"no figure shows {other!r}: the model makes it alone; {there}")
         if wish is None or not wish.kinds:
             return wish
         if missing := wish.kinds - set(here):
@@ -331,19 +331,23 @@ class SongPerformer:
             text=prompt or "a person dances",
             sampling=replace(own.settings, seed=seed),
             foot_lock=own.settings.foot_lock,
+            progress=progress,
         )
         if found is None:
             if wish.kinds and len(song.beats):
                 named = " or ".join(sorted(wish.kinds))
-                self._tell(f"no figure of {named} fits the tempo of this song: the model dances alone")
+                self._tell(
+                    f"no figure of {named} fits the tempo of this song: the model dances alone"
+                )
             return None
         motion, figures = found
         others = [figure for figure in figures if wish.kinds and figure.kind not in wish.kinds]
         if others:
             seconds = sum(figure.times[-1] - figure.times[0] for figure in others)
+            asked, came = " or ".join(sorted(wish.kinds)), sorted({each.kind for each in others})
             self._tell(
-                f"{seconds:.0f} s of this song have no figure of {' or '.join(sorted(wish.kinds))}"
-                f" that fits: {', '.join(sorted({figure.kind for figure in others}))} danced instead"
+                f"{seconds:.0f} s of this song have no figure of {asked} that fits:"
+                f" {', '.join(came)} danced instead"
             )
         if progress is not None:
             progress(motion.num_frames, motion.num_frames)
