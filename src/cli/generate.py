@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from ..shared.pipelines.ranking import ScoreTable
     from ..shared.pipelines.timeline import Timeline
 
+LONG_SONG = 150.0  # seconds
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
 
 
@@ -63,6 +64,7 @@ def generate(request: Request) -> None:
         raise UsageError("--judge compares candidates: give --num-samples 2 or more with it")
     if request.audio:
         check_song(request.audio)
+        check_range("meter", request.meter, 3, 4)
     result = produce(request)
     files.show_scores(result["selection"])
     if request.json:
@@ -82,6 +84,7 @@ def produce(request: Request) -> dict[str, Any]:
     request.keep_light()
     if (song := request.song) is not None:
         from ..shared.audio.sound import check_sound
+        from ..shared.pipelines.figure_dance import STAND
 
         if others := [flag for flag in request.given() if flag != "--path"]:
             raise UsageError(f"{others[0]} does not go with --audio; leave one out")
@@ -89,7 +92,9 @@ def produce(request: Request) -> dict[str, Any]:
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
-            own = "motion keeps its own time" if request.path_alone else "body stands"
+            passages = [each for row in result["motions"] for each in row.get("passages", [])]
+            stands = passages and all(each["text"] == STAND for each in passages)
+            own = "body stands" if stands else "motion keeps its own time"
             tell(f"note: no beat was found in {result['audio']}; the {own}")
         return result
     dancing = ("body", "body_model", "follow_path")
@@ -237,6 +242,8 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
 
         path = read_path(drawn)
     generator, song, clock, style = listen(request, audio, bodies=True)
+    if (seconds := min(song.seconds, request.seconds or song.seconds)) > LONG_SONG:
+        tell(f"{seconds / 60:.0f} minutes of song: this takes a while, --seconds for less")
     lines = generator.text.scope_warnings(said) if said else [None]
     found = [
         generator.dance(
@@ -260,7 +267,8 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
                      for each, line in zip(found, lines, strict=True)])  # fmt: skip
     rows, index = files.write_dances(found, request.kept, audio, song, formats, request.out)
     for place, row in enumerate(rows):
-        row |= {"seed": request.seed, "warning": warnings[place // request.kept]}
+        of_dance = found[place // request.kept].warning, warnings[place // request.kept]
+        row |= {"seed": request.seed, "warning": next(filter(None, of_dance), None)}
     clock.lap("write")
     several = found if request.num_samples > 1 else []
     selection = [(each.prompt or str(audio), each.table) for each in several]
@@ -415,7 +423,8 @@ def read_given(request: Request) -> "Given":
 def print_files(result: dict[str, Any]) -> None:
     """One path a line on stdout; the times on stderr."""
     for row in result["motions"]:
-        print(*row["files"].values(), sep="\n")
+        if row["files"]:  # a page of several is named below
+            print(*row["files"].values(), sep="\n")
     if result["index"]:
         print(result["index"])
     times = result["timings"]

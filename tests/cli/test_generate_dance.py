@@ -104,6 +104,16 @@ def test_several_prompts_dance_side_by_side(folder: Path, tmp_path: Path) -> Non
     assert [row["prompt"] for row in told["motions"]] == [PROMPT[1], "somebody jumps twice"]
 
 
+def test_a_dance_that_is_not_there_is_told(folder: Path, tmp_path: Path) -> None:
+    asked = ("--prompt", "a person dances hip hop", "--prompt", "a person dances tango")
+    result = generate(folder, *asked, "--format", "html", "--out", tmp_path / "a", "--json")
+    told = json.loads(result.stdout)["motions"]
+    assert all(w in row["warning"] for row, w in zip(told, ("hip hop", "tango"), strict=True))
+    assert "breakdance" in told[0]["warning"]
+    shown = generate(folder, *asked, "--format", "html", "--out", tmp_path / "b").stdout
+    assert shown.splitlines() == [str(tmp_path / "b" / "index.html")]
+
+
 def test_the_music_chooses_where_nobody_says_anything(folder: Path, tmp_path: Path) -> None:
     result = generate(folder, "--body", "--format", "npz", "--out", tmp_path, "--json")
     (row,) = json.loads(result.stdout)["motions"]
@@ -115,7 +125,7 @@ def test_a_song_without_beat(folder: Path, tmp_path: Path) -> None:
     soundfile.write(tmp_path / "still.wav", np.zeros(44_100 * 2), 44_100)
     arguments = (*PROMPT, "--format", "html", "--out", tmp_path / "out", "--json")
     result = generate(folder, *arguments, song=tmp_path / "still.wav")
-    assert "no beat was found" in result.stderr
+    assert "no beat was found" in result.stderr and "body stands" in result.stderr
     (row,) = json.loads(result.stdout)["motions"]
     assert row["beat-alignment"] is None
 
@@ -137,6 +147,7 @@ def test_a_song_without_beat(folder: Path, tmp_path: Path) -> None:
         (("--path", "way.csv"), "--path"),
         ((*PROMPT, "--path", "way.csv", "--follow-path"), "--path"),
         ((*PROMPT, "--loop"), "--loop"),
+        ((*PROMPT, "--meter", "5"), "--meter 5"),
     ],
 )
 def test_wrong_usage(folder: Path, arguments: tuple[str, ...], named: str) -> None:

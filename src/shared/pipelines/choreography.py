@@ -12,7 +12,7 @@ Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts
 
 import re
 import unicodedata
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
@@ -28,7 +28,7 @@ from .body import beats_beyond
 from .words import all_words
 
 PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
-WARP = 0.2  # of the tempo, at most
+WARP, STRETCH = 0.2, 0.35  # of the tempo, at most; of a phrase that no figure fits so
 UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by a kind that is mostly danced so
 CANDIDATES = 400  # figures of a slot, by what they cost alone
 # What a unit of each costs; the first is a metre of pose, all joints and channels together.
@@ -37,6 +37,7 @@ JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
+AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
 SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
@@ -44,6 +45,7 @@ MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
 OTHER = 6.0  # cost of a kind that stands in for the one that is asked for, but in a part b
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
+NO_KIND: frozenset[str] = frozenset()
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
 
 
@@ -164,7 +166,8 @@ def _phrase(bars: np.ndarray) -> tuple[int, int]:
 
 
 def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
-    """Phrases of two counts and more, one after the other; those below three join a neighbour."""
+    """Phrases of two counts and more, one after the other; those below three join a neighbour, and
+    so does half a phrase at the end."""
     found: list[np.ndarray] = []
     for phrase in phrases:
         both = len(found[-1]) + len(phrase) - 2 if found else 0
@@ -173,6 +176,9 @@ def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
             found[-1] = np.concatenate((found[-1], phrase[1:]))
         else:
             found.append(phrase)
+    if len(found) > 1 and len(found[-1]) - 1 <= per_phrase // 2:  # no stub before the end
+        last = found.pop()
+        found[-1] = np.concatenate((found[-1], last[1:]))
     return [phrase for phrase in found if len(phrase) > 2]
 
 
@@ -239,13 +245,20 @@ class Choreographer:
             self._figures[counts] = self.memory.figures(counts)
         return self._figures[counts]
 
-    def choose(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
-        """One figure a slot (each `Figures` of one row); None where nothing fits one.
+    def choose(
+        self,
+        slots: Sequence[Slot],
+        wish: Wish,
+        seed: int,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> list[Figures] | None:
+        """One figure a slot (each `Figures` of one row); None where nothing fits most of them.
 
         Args:
             slots: S ≥ 1.
             wish: of the sentence.
             seed: with the song and the wish it decides everything.
+            progress: told the slots done of S.
         """
         rng = np.random.default_rng(seed)
         options: list[Figures] = []
@@ -256,6 +269,8 @@ class Choreographer:
         mirrored = np.zeros((1, 0), dtype=bool)
         seen = np.zeros((1, 1), dtype=np.float32)
         spread, before = np.zeros((1, AXES**2), dtype=np.float32), np.zeros(1)
+        if 2 * sum(self._fits(slot, wish) for slot in slots) < len(slots):
+            return None
         for index, slot in enumerate(slots):
             found, alone = self._candidates(slot, wish, rng)
             if not len(found):
@@ -280,7 +295,8 @@ class Choreographer:
             ends, furthest = (_places(place, way, found.turn) for way in (found.travel, found.far))
             for at, free in ((ends, FREE), (furthest, 2 * FREE)):
                 cost += STAGE * np.maximum(np.linalg.norm(at[..., :2], axis=-1) - free, 0)
-            cost += FRONT * (1 - np.cos(ends[..., 2]))
+            front = FRONT + AT_END * (index == len(slots) - 1)
+            cost += front * (1 - np.cos(ends[..., 2]))
             best = cost.argmin(0)
             column = np.arange(len(found))
             value, place = cost[best, column], ends[best, column]
@@ -292,13 +308,17 @@ class Choreographer:
             spread, before = spread[best] + own, dimensions[best, column]
             options.append(found)
             back.append(best)
+            if progress is not None:
+                progress(index + 1, len(slots))
         at_end = int(value.argmin())
         chosen = [at_end]
         for best in back[:0:-1]:
             chosen.append(int(best[chosen[-1]]))
         return [each.rows(np.array([row])) for each, row in zip(options, chosen[::-1], strict=True)]
 
-    def draw(self, slots: Sequence[Slot], wish: Wish, seed: int) -> list[Figures] | None:
+    def draw(
+        self, slots: Sequence[Slot], wish: Wish, seed: int, _: object = None
+    ) -> list[Figures] | None:
         """As `choose`, any figure that fits by its tempo."""
         rng, found = np.random.default_rng(seed), []
         for slot in slots:
@@ -318,6 +338,7 @@ class Choreographer:
         meter: int = 0,
         *,
         beside: bool = False,
+        warp: float = WARP,
     ) -> tuple[Figures, np.ndarray]:
         """Figures of so many counts that a wish allows, and their ranks by energy [N], 0 to 1.
 
@@ -327,6 +348,7 @@ class Choreographer:
             period: seconds of a count that they are to be warped to; None = no matter.
             meter: counts of a bar of the song; 0 = neither three nor four.
             beside: also those of other kinds that may stand in.
+            warp: of the tempo, at most.
         """
         figures = self.figures(counts)
         kinds = self._kinds[figures.take]
@@ -343,12 +365,20 @@ class Choreographer:
         else:
             fits = usual
         if period is not None:
-            fits = fits & (np.abs(figures.count / period - 1) < WARP)
+            fits = fits & (np.abs(figures.count / period - 1) < warp)
         rows = np.flatnonzero(fits)
         rank = np.argsort(np.argsort(figures.energy[rows])) / max(len(rows) - 1, 1)
         low, high = wish.energy
         inside = (rank >= low) & (rank <= high)
-        return figures.rows(rows[inside]), (rank[inside] - low) / (high - low)
+        if not inside.any():  # of one or two
+            inside[:] = True
+        return figures.rows(rows[inside]), ((rank[inside] - low) / (high - low)).clip(0, 1)
+
+    def _fits(self, slot: Slot, wish: Wish) -> bool:
+        """Whether figures of a wish, or what stands in for them, have the tempo of a slot."""
+        counts = len(slot.counts) - 1
+        period = float(slot.counts[-1] - slot.counts[0]) / counts
+        return len(self.allowed(counts, wish, period, slot.meter, beside=True)[0]) > 0
 
     def _candidates(
         self, slot: Slot, wish: Wish, rng: np.random.Generator
@@ -357,7 +387,11 @@ class Choreographer:
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        found, rank = self.allowed(counts, wish, period, slot.meter, beside=True)
+        # A phrase that nothing fits is no reason to dance none: stretched, or of any kind.
+        for what, warp in ((wish, WARP), (wish, STRETCH), (replace(wish, kinds=NO_KIND), WARP)):
+            found, rank = self.allowed(counts, what, period, slot.meter, beside=True, warp=warp)
+            if len(found):
+                break
         cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
         clear = 2 * found.clear_beats if slot.halved else found.clear
         cost -= CLEAR * clear + NOISE * noise[: len(found)]
@@ -417,18 +451,39 @@ ENERGY_OF = {"calm": CALM, "lively": LIVELY}
 _WORD = re.compile(r"[^\W\d_]")
 
 
-def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
+def wish_of(sentence: str, kinds: Collection[str], others: Collection[str] = ()) -> Wish | None:
     """What a sentence asks of figures of some kinds; None where they cannot show it.
 
     A kind that is named is danced, whatever else the sentence says.
 
     Args:
         sentence: in any of the six languages.
-        kinds: of the figures that there are; their own names are understood, too.
+        kinds: of the figures that there are; their own names are understood, too, also without
+            "my" and articles, and each answers what else its name is called ("indian", "ballet").
+        others: of which there are none, and that may be asked for.
     """
+    wish, asks, left = _read(sentence, kinds)
+    unread = left if wish.kinds and asks else ""
+    if left and not unread:
+        return None  # "an Indian man walks" dances nothing
+    if not asks or not wish.kinds <= {*kinds, *others}:
+        return None
+    return replace(wish, unread=unread)
+
+
+def unshown(sentence: str, kinds: Collection[str]) -> str:
+    """What no figure shows of a sentence that asks for a dance alone; "" of any other."""
+    wish, asks, left = _read(sentence, kinds)
+    one = not all_words().then.search(left)
+    return left if one and (asks or wish.kinds) else ""
+
+
+def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
+    """A wish, whether the sentence asks for a dance, and what else it says."""
     rest = unicodedata.normalize("NFC", sentence).casefold()
-    dances, said, wish, wanted = False, False, Wish(), set()
-    names = {name.casefold(): ("kinds", name) for name in kinds}
+    said, wish, wanted = False, Wish(), set()
+    names = {_bare(name): ("kinds", name) for name in kinds}
+    names |= {name.casefold(): ("kinds", name) for name in kinds}
     for word, (about, what) in sorted(
         (_words() | names).items(), key=lambda item: len(item[0]), reverse=True
     ):
@@ -436,7 +491,6 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
         if not found:
             continue
         rest = left
-        dances |= about in ("dance", "kinds")
         said |= about == "dance"
         if about == "kinds":
             wanted.add(what)
@@ -445,12 +499,17 @@ def wish_of(sentence: str, kinds: Collection[str]) -> Wish | None:
             wish = replace(wish, manner=wish.manner & manner, energy=energy or wish.energy)
         elif about in ENERGY_OF:
             wish = replace(wish, energy=ENERGY_OF[about])
-    unread = " ".join(rest.split()) if _WORD.search(rest) else ""
-    if unread and not (wanted and (said or not _WORD.search(all_words().then.sub(" ", unread)))):
-        return None  # "an Indian man walks" dances nothing
-    if not dances or not wanted <= set(kinds):
-        return None
-    return replace(wish, kinds=frozenset(wanted), unread=unread)
+    called = {_words().get(_bare(name), ("", name))[1]: name for name in kinds}
+    wanted = {kind if kind in kinds else called.get(kind, kind) for kind in wanted}
+    left = " ".join(rest.split()).strip(" ,;.:!?、，。") if _WORD.search(rest) else ""
+    asks = said or bool(wanted and not _WORD.search(all_words().then.sub(" ", left)))
+    return replace(wish, kinds=frozenset(wanted)), asks, left
+
+
+def _bare(kind: str) -> str:
+    """A kind's name without "my" and articles: "my tango" is asked for as a tango."""
+    words = [each for each in kind.casefold().split() if each not in ("my", "the", "a", "an")]
+    return " ".join(words) or kind.casefold()
 
 
 def named_kinds() -> set[str]:

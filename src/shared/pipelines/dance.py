@@ -29,7 +29,7 @@ from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
-from .choreography import Choreographer, Wish, named_kinds, wish_of
+from .choreography import Choreographer, Wish, named_kinds, unshown, wish_of
 from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition
@@ -210,11 +210,13 @@ def with_waits(passages: Sequence[Passage], waits: Sequence[tuple[int, int]]) ->
 
 @dataclass(frozen=True, eq=False)
 class Dances:
-    """What was asked for, the dances by rank, and what was found of them in the order sampled."""
+    """What was asked for, the dances by rank, what was found of them in the order sampled, and what
+    was said of them that whoever asked should know."""
 
     prompt: str | None
     ranked: list[Performance]
     table: ScoreTable
+    warning: str | None = None
 
 
 class SongPerformer:
@@ -237,6 +239,7 @@ class SongPerformer:
     ) -> None:
         self.performer, self.prompter, self.choreographer = performer, prompter, choreographer
         self.judge = judge or PerformanceJudge()
+        self._told: list[str] = []  # of the dance that is made
 
     def dance(
         self,
@@ -262,6 +265,7 @@ class SongPerformer:
             UserError: as `Performer.improvise`.
         """
         frames, made = song.condition.shape[1], []
+        self._told = []
         wish = self._wish(prompt)
         for number in range(num_samples):
             own = candidate_seed(seed, song.seed, number)
@@ -278,7 +282,14 @@ class SongPerformer:
                     progress=told,
                 )
             made.append(dance)
-        return self._ranked(made, song, prompt)
+        ranked = self._ranked(made, song, prompt)
+        return replace(ranked, warning="; ".join(self._told) or None)
+
+    def _tell(self, line: str) -> None:
+        """Say it, once a dance, and keep it."""
+        if line not in self._told:
+            log.warning("%s", line)
+            self._told.append(line)
 
     def _wish(self, prompt: str | None) -> Wish | None:
         """What is asked of recorded figures; None where they do not show it. Says what they do
@@ -286,17 +297,21 @@ class SongPerformer:
         if self.choreographer is None or prompt is None:
             return None if self.choreographer is None else Wish()
         here = self.choreographer.kinds
-        wish = wish_of(prompt, {*here, *named_kinds()})
+        wish = wish_of(prompt, here, named_kinds())
+        there = f"figures that there are: {', '.join(sorted(here))}"
+        if wish is None and (other := unshown(prompt, here)):
+            self._tell(f"no figure shows {other!r}: the model makes it alone; {there}")
         if wish is None or not wish.kinds:
             return wish
         if missing := wish.kinds - set(here):
-            log.warning("the memory holds no figure of %s", " or ".join(sorted(missing)))
+            self._tell(f"the memory holds no figure of {' or '.join(sorted(missing))}; {there}")
             wish = replace(wish, kinds=wish.kinds - missing)
         if wish.kinds and wish.unread:
-            log.warning(
-                "of %r figures of %s are danced, in any order; they do not show %r",
-                prompt, " and ".join(sorted(wish.kinds)), wish.unread,
-            )  # fmt: skip
+            kinds = " and ".join(sorted(wish.kinds))
+            self._tell(
+                f"of {prompt!r} figures of {kinds} are danced, in any order; they do not show"
+                f" {wish.unread!r}"
+            )
         return wish if wish.kinds else None
 
     def _in_figures(
@@ -316,22 +331,23 @@ class SongPerformer:
             text=prompt or "a person dances",
             sampling=replace(own.settings, seed=seed),
             foot_lock=own.settings.foot_lock,
+            progress=progress,
         )
         if found is None:
             if wish.kinds and len(song.beats):
                 named = " or ".join(sorted(wish.kinds))
-                log.warning(
-                    "no figure of %s fits the tempo of this song: the model dances alone", named
+                self._tell(
+                    f"no figure of {named} fits the tempo of this song: the model dances alone"
                 )
             return None
         motion, figures = found
         others = [figure for figure in figures if wish.kinds and figure.kind not in wish.kinds]
         if others:
-            log.warning(
-                "%.0f s of this song have no figure of %s that fits: %s danced instead",
-                sum(figure.times[-1] - figure.times[0] for figure in others),
-                " or ".join(sorted(wish.kinds)),
-                ", ".join(sorted({figure.kind for figure in others})),
+            seconds = sum(figure.times[-1] - figure.times[0] for figure in others)
+            asked, came = " or ".join(sorted(wish.kinds)), sorted({each.kind for each in others})
+            self._tell(
+                f"{seconds:.0f} s of this song have no figure of {asked} that fits:"
+                f" {', '.join(came)} danced instead"
             )
         if progress is not None:
             progress(motion.num_frames, motion.num_frames)

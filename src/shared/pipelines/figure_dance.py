@@ -21,7 +21,7 @@ from ..memory.figures import FPS, FigureMemory, Figures
 from ..metrics.rhythm import motion_beats
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
-from ..model.generation.motion_generator import TextToMotion
+from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import (
     FORWARD,
     LATERAL,
@@ -49,6 +49,7 @@ BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
+CHOSEN = 0.9  # of the work, about, is to choose figures
 LONG = 10  # frames; for less the pose is held
 
 
@@ -75,6 +76,7 @@ class FigureDancer:
         text: str = "",
         sampling: Sampling,
         foot_lock: bool | None = None,
+        progress: Progress | None = None,
     ) -> tuple[Motion, tuple[Danced, ...]] | None:
         """A body that dances figures, T frames; None where none fits the song and the wish.
 
@@ -84,6 +86,7 @@ class FigureDancer:
             text: the caption.
             sampling: its seed decides everything; the rest is how a standing body is made.
             foot_lock: hold standing feet; None = the model's own setting.
+            progress: told the frames done of T while figures are chosen, up to `CHOSEN` of them.
 
         Raises:
             UserError: as `TextToMotion.sample_features`.
@@ -91,7 +94,13 @@ class FigureDancer:
         if song.phase is None or len(song.beats) < 2:
             return None
         slots = song_slots(song.beats, song.phase, song.condition.cpu().numpy(), song.waits)
-        chosen = self._choose(slots, wish, sampling.seed) if slots else None
+        frames = len(song.phase)
+
+        def told_of(done: int, total: int) -> None:
+            if progress is not None:
+                progress(int(CHOSEN * frames * done / total), frames)
+
+        chosen = self._choose(slots, wish, sampling.seed, told_of) if slots else None
         if chosen is None:
             return None
         memory = self.choreographer.memory

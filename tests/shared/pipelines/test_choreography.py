@@ -19,6 +19,7 @@ from src.shared.pipelines.choreography import (
     Slot,
     Wish,
     song_slots,
+    unshown,
     wish_of,
 )
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
@@ -146,6 +147,43 @@ def test_a_wish_restricts_and_what_nobody_dances_is_told() -> None:
     assert choreographer.draw(fast, Wish(), 0) is None
 
 
+def test_a_phrase_that_nothing_fits_leaves_the_rest_danced() -> None:
+    choreographer = Choreographer(tiny_figures())
+    polka = Wish(frozenset({"polka"}))
+    whole = song_slots(*song(seconds=17))
+    quick = Slot(whole[-1].counts[-1] + np.arange(4) * 0.2)
+    assert not choreographer._fits(quick, polka)
+    stretched = Slot(whole[-1].counts[-1] + np.arange(7) * 0.39)  # by more than WARP
+    assert not choreographer._fits(stretched, polka)
+    chosen = choreographer.choose([*whole, stretched], polka, 0)
+    assert chosen is not None and {int(each.take[0]) for each in chosen} == {1}
+    assert choreographer.choose([stretched], polka, 0) is None
+
+
+def test_a_dance_ends_with_a_whole_figure_to_the_front() -> None:
+    for seconds in np.arange(12.2, 16.2, 0.5):  # cut anywhere in a phrase of four seconds
+        slots = song_slots(*song(seconds=float(seconds)))
+        assert 4 < len(slots[-1].counts) - 1 <= 12, seconds
+    turning = tiny_figures()
+    slots = song_slots(*song(seconds=20))
+    ends = []
+    for gain in (0.0, 1000.0):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(choreography, "AT_END", gain)
+            chosen = Choreographer(turning).choose(slots, Wish(), 0)
+            assert chosen is not None
+            ends.append(np.cos(sum(float(each.turn[0]) for each in chosen)))
+    assert ends[1] >= ends[0]
+
+
+def test_one_figure_alone_is_quiet_and_lively() -> None:
+    choreographer = Choreographer(tiny_figures())
+    longest = max(n for n in range(2, 40) if len(choreographer.figures(n)))
+    for energy in (CALM, LIVELY):
+        found, rank = choreographer.allowed(longest, Wish(energy=energy))
+        assert len(found) and (rank >= 0).all() and (rank <= 1).all()
+
+
 def test_calm_is_calmer_than_lively() -> None:
     choreographer = Choreographer(tiny_figures())
     calm, lively = (
@@ -203,6 +241,36 @@ def test_whoever_just_dances_may_dance_anything(sentence: str) -> None:
 )
 def test_kinds_and_energy(sentence: str, kind: str, energy: tuple[float, float]) -> None:
     assert wish_of(sentence, KINDS) == Wish(frozenset({kind}), energy)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "kind"),
+    [("une femme danse le tango", "my tango"), ("a person dances my tango", "my tango"),
+     ("a person dances an Indian dance", "indian"),
+     ("eine Frau tanzt einen indischen Tanz", "indian"),
+     ("los hombres bailan salsa", "salsa")],
+)  # fmt: skip
+def test_kinds_of_a_memory_of_ones_own(sentence: str, kind: str) -> None:
+    wish = wish_of(sentence, {"my tango", "indian", "salsa"}, choreography.named_kinds())
+    assert wish == Wish(frozenset({kind}))
+
+
+@pytest.mark.parametrize(
+    ("sentence", "left"),
+    [("a person dances hip hop", "hip hop"), ("une femme danse le tango", "tango"),
+     ("two people dance", "two"), ("人がタンゴを踊る", "タンゴ"), ("a robot dances", "robot"),
+     ("un uomo balla la salsa", "uomo balla"), ("a person dances", ""), ("a person walks", ""),
+     ("a person walks, then dances", "")],
+)  # fmt: skip
+def test_what_is_not_shown_of_a_dance_is_known(sentence: str, left: str) -> None:
+    assert unshown(sentence, KINDS) == left
+
+
+def test_what_else_is_said_is_told_without_its_comma() -> None:
+    wish = wish_of("dos personas bailan salsa", KINDS)
+    assert wish is not None and wish.kinds == {"salsa"} and wish.unread == "dos"
+    bows = wish_of("a person dances salsa, then bows", KINDS)
+    assert bows is not None and bows.unread == "then bows"
 
 
 def test_a_kind_is_danced_whatever_else_is_said() -> None:

@@ -141,3 +141,6 @@ def test_what_the_figures_do_not_show_is_said(
     assert (
         wish is not None and wish.kinds == {"salsa"} and "they do not show 'robot'" in caplog.text
     )
+    assert dancers._wish("a person dances hip hop") is None
+    assert "no figure shows 'hip hop'" in caplog.text and "polka, salsa" in caplog.text
+    assert len(dancers._told) == 3  # and in the JSON
