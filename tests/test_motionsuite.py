@@ -1,6 +1,7 @@
 """`import motionsuite`: laid out as in the wheel and in a checkout, beside somebody's own `src`."""
 
 import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -128,3 +129,13 @@ def test_what_a_user_can_mend_has_a_public_name() -> None:
 def test_a_sampling_that_cannot_be_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(UsageError, match="must be a"):
         motionsuite.Sampling(**wrong)
+
+
+def test_a_generator_is_copied_as_it_was_opened() -> None:
+    opened = motionsuite.load("starter", device="cpu")
+    copied = pickle.loads(pickle.dumps(opened))
+    assert "text" in vars(opened) and "text" not in vars(copied)
+    made, same = (each.generate("a person waves", seconds=1.0)[0] for each in (opened, copied))
+    assert np.array_equal(made.quaternions, same.quaternions)
+    with pytest.raises(UsageError, match="not by a NoneType"):
+        motionsuite.load(None)

@@ -10,7 +10,7 @@ from ..shared.errors import UsageError
 from ..shared.io.files import same_place
 from ..shared.io.storage import Place, place
 from . import options
-from .console import complain, print_json, progress_bar, tell
+from .console import complain, counted, print_json, progress_bar, tell
 
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
@@ -98,11 +98,18 @@ def prepare(
         roots, captions=captions or (), labels=labels, mapping=mapping, reading=reading
     )
     for folder in folders:
-        if folder.from_names and (wordless := folder.wordless()):
-            example = " ".join(words(Path(wordless[0]).stem))
+        if not folder.from_names:
+            continue
+        said = {file: " ".join(words(Path(file).stem)) for file in folder.wordless()}
+        if named := [file for file, text in said.items() if text]:
             complain(
-                f"warning: no captions for {folder.root}: {len(wordless)} files have the words of"
-                f" their names for captions, e.g. {wordless[0]}: {example!r}; give --captions"
+                f"warning: no captions for {folder.root}: {counted(len(named), 'file')} get the"
+                f" words of their names, e.g. {named[0]}: {said[named[0]]!r}; give --captions"
+            )
+        if silent := [file for file, text in said.items() if not text]:
+            complain(
+                f"warning: no captions for {folder.root}, and no words in the names of"
+                f" {counted(len(silent), 'file')}, e.g. {silent[0]}, left out; give --captions"
             )
     sources: list[Source] = [*folders]
     if synthetic:
@@ -124,6 +131,12 @@ def prepare(
         complain(
             f"warning: {len(unmatched)} clips in {tables} match no file, e.g."
             f" {', '.join(unmatched[:3])}; {target / 'report.json'} lists them"
+        )
+    if moved := report["held_back_now"]:
+        complain(
+            f"warning: {counted(len(moved), 'clip')} that earlier went into training"
+            f" {'is' if len(moved) == 1 else 'are'} held back now, e.g. {moved[0]}: what was"
+            " trained on the earlier set has seen them; train anew before evaluating on these"
         )
     if json:
         print_json(report)

@@ -92,7 +92,8 @@ def prepare(
     scheduler: str | None = None,
     progress: Progress = lambda done, total: None,
 ) -> dict[str, Any]:
-    """Prepare all clips of `sources` into the folder or address `out`; returns the report.
+    """Prepare all clips of `sources` into the folder or address `out`; returns the report, and
+    `held_back_now`: clips that an earlier run into `out` gave to training and this one does not.
 
     Args:
         sources: `MotionFolder`s and the like; folders and files of motion are opened as such.
@@ -134,6 +135,7 @@ def prepare(
             f"none of the {len(items)} clips could be used{example} (see {out}/report.json)"
         )
     records = _records(clips, mirror=mirror, seed=seed, book=book)
+    moved = _no_longer_trained_on(out, records)
     lines = "".join(json.dumps(asdict(r), ensure_ascii=False) + "\n" for r in records)
     write_text(out / "clips.jsonl", lines)
     write_json(out / "captions.json", _group_captions(records, book, seed))
@@ -142,7 +144,7 @@ def prepare(
     report = _report(records, skipped) | {"unmatched_captions": _unmatched(sources)}
     write_json(out / "report.json", report)
     write_json(out / "manifest.json", _manifest(out, sources, jobs, records, seed, mirror))
-    return report
+    return report | {"held_back_now": moved}
 
 
 def _opened(
@@ -150,6 +152,9 @@ def _opened(
 ) -> tuple[Source, ...]:
     """The sources, folders and files opened together under the captions."""
     tables = [Path(each) for each in ([captions] if isinstance(captions, str | Path) else captions)]
+    given: Any = sources
+    if not isinstance(given, Sequence):
+        raise UsageError(f"sources are a {type(given).__name__}; give a folder, or a list of them")
     roots = [place(source) for source in sources if isinstance(source, str | Path)]
     if tables and not roots:
         raise UsageError(
@@ -355,6 +360,20 @@ def _records(
             }
             records.append(ClipRecord(**(clip | found)))
     return records
+
+
+def _no_longer_trained_on(out: Place, records: list[ClipRecord]) -> list[str]:
+    """Clips that an earlier run into this folder gave to training, and this one holds back."""
+    file = out / "clips.jsonl"
+    if not file.exists():
+        return []
+    try:
+        with fetched(file) as path:
+            before = map(json.loads, path.read_text(encoding="utf-8").splitlines())
+            trained = {row["id"] for row in before if row["split"] == "train"}
+    except (OSError, ValueError, LookupError, TypeError):
+        return []  # damaged: it is written anew
+    return sorted(r.id for r in records if r.id in trained and r.split != "train")
 
 
 def _group_captions(

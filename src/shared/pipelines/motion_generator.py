@@ -167,6 +167,10 @@ class MotionGenerator:
         Raises:
             UserError: no such model, or damaged.
         """
+        named: Any = name_or_folder
+        if not isinstance(named, str | Path):
+            kind = type(named).__name__
+            raise UsageError(f"a model is named by a text or a path, not by a {kind}")
         if read_card(resolve_model(name_or_folder)).kind == AUDIO_KIND:
             generator = cls(audio=name_or_folder, **options)
             _ = generator.audio
@@ -174,6 +178,10 @@ class MotionGenerator:
             generator = cls(name_or_folder, **options)
             _ = generator.text
         return generator
+
+    def __getstate__(self) -> dict[str, Any]:
+        """As it was opened: what is loaded stays here, and a copy loads its own."""
+        return {name: value for name, value in vars(self).items() if name.startswith("_")}
 
     # ------------------------------------------------------------ models
 

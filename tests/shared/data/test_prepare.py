@@ -124,6 +124,21 @@ def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 
+def test_what_is_held_back_anew_is_told(tmp_path: Path) -> None:
+    root = bvh_folder(tmp_path / "in", 2)
+    source = MotionFolder.open(root, captions=[root / "captions.csv"])
+    prepare([source], tmp_path / "out", workers=1)
+    file = tmp_path / "out" / "clips.jsonl"
+    rows = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
+    held = {row["id"] for row in rows if row["split"] != "train"}
+    trained = [row | {"split": "train"} for row in rows]
+    for lines, now in ((map(json.dumps, trained), held), (["{damaged"], set())):
+        file.write_text("\n".join(lines), encoding="utf-8")
+        report = prepare([source], tmp_path / "out", workers=1)
+        assert set(report["held_back_now"]) == now
+        assert [json.loads(line) for line in file.read_text().splitlines()] == rows
+
+
 def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(prepare_module, "CLIPS_PER_SHARD", 2)
     root = bvh_folder(tmp_path / "in")
@@ -223,7 +238,8 @@ def test_what_is_skipped_is_named_with_its_reason(tmp_path: Path) -> None:
     assert "unreadable" in reasons["in/mute.bvh"]
     assert "unreadable" in reasons["in/broken.bvh"]
     assert "no caption and no label" in reasons["in/silent.bvh"]
-    assert json.loads((tmp_path / "out" / "report.json").read_text()) == report
+    written = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert written | {"held_back_now": []} == report
 
 
 def test_the_same_file_name_in_two_folders_is_two_takes(tmp_path: Path) -> None:
