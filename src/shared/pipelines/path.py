@@ -545,6 +545,14 @@ def turned(
     return given
 
 
+def on_the_spot(turned: Constraint) -> Constraint:
+    """A led turn whose place is known from where it begins: who walked has come to a stop."""
+    first = int(torch.nonzero(turned.values[:, ROOT_ROW, YAW_RATE])[0, 0])
+    turned.values[first:, ROOT_ROW, [FORWARD, LATERAL]] = 0.0
+    turned.known[first:, ROOT_ROW, [FORWARD, LATERAL]] = True
+    return turned
+
+
 def circled(degrees: float, fps: float, seconds: float) -> Constraint:
     """A heading that turns by so many degrees, as fast at any moment: a way that closes."""
     given = Constraint.free(round(seconds * fps))

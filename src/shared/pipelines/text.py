@@ -53,6 +53,7 @@ from .path import (
     circled,
     natural_gait,
     natural_sway,
+    on_the_spot,
     time_path,
     turned,
 )
@@ -335,11 +336,8 @@ class SentenceGenerator:
         return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
 
     def _bend(self, text: str) -> float:
-        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0.
-
-        Whether it is to shows in what the network makes of it, which turns and does not stop
-        turning (docs/experiments.md, section 44).
-        """
+        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
+        what the network makes of it turns, and does not stop turning (experiments, section 44)."""
         side, around = side_of(text), goes_round(text)
         if self._nearest(text) not in GOING or not (around or side != "both"):
             return 0.0
@@ -533,15 +531,16 @@ class SentenceGenerator:
     def _turn(self, clause: Clause, seconds: float, sampling: Sampling) -> Constraint:
         """By the angle that is named; round a corner or in a circle; else in full circles, as many
         as are named or as fill the seconds, to the side that is named or that the seed says."""
-        fps = self.card.fps
+        fps, turns = self.card.fps, self._nearest(clause.text) == "turn"
         if clause.degrees is not None:
-            return turned(clause.degrees, fps, clause.seconds)
+            given = turned(clause.degrees, fps, clause.seconds)
+            return on_the_spot(given) if turns else given
         side = side_of(clause.text)
-        if self._nearest(clause.text) == "turn" and side != "both":
+        if turns and side != "both":
             angle = CORNER * clause.count * (1 if side == "left" else -1)
-            if clause.count > 1:
-                return turned(angle, fps, clause.seconds)
-            return turned(angle, fps, seconds, max((seconds - TURN_SECONDS) / 2, TURN_REST))
+            rest = max((seconds - TURN_SECONDS) / 2, TURN_REST)
+            time = (clause.seconds,) if clause.count > 1 else (seconds, rest)
+            return on_the_spot(turned(angle, fps, *time))
         if bend := self._bend(clause.text):
             if clause.seconds is None:
                 seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)

@@ -233,11 +233,14 @@ export class Director {
 
   /** By the angle that is named; round a corner or in a circle; else in full circles, as many as are named or as fill the seconds. */
   async turn({ degrees, text, count, seconds: named }, seconds, seed) {
-    if (degrees !== null) return turned(degrees, named ?? undefined);
-    const side = this.reader.sideOf(text);
-    if (this.nearest(text) === "turn" && side !== "both") {
+    const turns = this.nearest(text) === "turn", side = this.reader.sideOf(text);
+    if (degrees !== null) {
+      const given = turned(degrees, named ?? undefined);
+      return turns ? onTheSpot(given) : given;
+    }
+    if (turns && side !== "both") {
       const angle = CORNER * count * (side === "left" ? 1 : -1);
-      return count > 1 ? turned(angle, named ?? undefined) : turned(angle, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST));
+      return onTheSpot(count > 1 ? turned(angle, named ?? undefined) : turned(angle, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST)));
     }
     const bend = await this.bend(text);
     if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
@@ -367,6 +370,18 @@ const lastFrames = (motion, frames) => ({
   root: motion.root.slice((motion.frames - frames) * 3),
   contacts: motion.contacts.slice((motion.frames - frames) * 2),
 });
+
+/** A led turn whose place is known from where it begins to turn: who walked has come to a stop. */
+function onTheSpot(given) {
+  let t = 0;
+  while (!given.values[t * WIDTH + ROOT + YAW_RATE]) t++;
+  for (; t < framesOf(given.values); t++)
+    for (const column of [FORWARD, LATERAL]) {
+      given.values[t * WIDTH + ROOT + column] = 0;
+      given.known[t * WIDTH + ROOT + column] = 1;
+    }
+  return given;
+}
 
 /** A heading that turns by so many degrees, as fast at any moment: a way that closes. */
 function circled(degrees, seconds) {

@@ -258,6 +258,10 @@ def test_a_quarter_turn_is_meant_and_circles_close(starter: TextToMotion):
     )
     assert turn_of(left) == pytest.approx(90, abs=3)
     assert abs(turn_of(about)) == pytest.approx(180, abs=3)
+    (walk,) = sentences.generate(["walk two metres, then turn right"], seconds=3.0)
+    for turn in (left, about, walk.frames(walk.num_frames - 75, walk.num_frames)):
+        way = turn.root_position[-1] - turn.root_position[0]
+        assert np.linalg.norm(way[[0, 2]]) < 0.4  # 1.6 m where the place is free
     way = circle.root_position[-1] - circle.root_position[0]
     assert np.linalg.norm(way[[0, 2]]) < 0.5 and abs(turn_of(circle)) > 350
 
