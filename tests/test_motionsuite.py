@@ -137,5 +137,5 @@ def test_a_generator_is_copied_as_it_was_opened() -> None:
     assert "text" in vars(opened) and "text" not in vars(copied)
     made, same = (each.generate("a person waves", seconds=1.0)[0] for each in (opened, copied))
     assert np.array_equal(made.quaternions, same.quaternions)
-    with pytest.raises(UsageError, match="not by a NoneType"):
+    with pytest.raises(UsageError, match="the model is a NoneType"):
         motionsuite.load(None)

@@ -84,7 +84,6 @@ def produce(request: Request) -> dict[str, Any]:
     request.keep_light()
     if (song := request.song) is not None:
         from ..shared.audio.sound import check_sound
-        from ..shared.pipelines.figure_dance import STAND
 
         if others := [flag for flag in request.given() if flag != "--path"]:
             raise UsageError(f"{others[0]} does not go with --audio; leave one out")
@@ -92,6 +91,8 @@ def produce(request: Request) -> dict[str, Any]:
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
+            from ..shared.pipelines.figure_dance import STAND
+
             passages = [each for row in result["motions"] for each in row.get("passages", [])]
             stands = passages and all(each["text"] == STAND for each in passages)
             own = "body stands" if stands else "motion keeps its own time"

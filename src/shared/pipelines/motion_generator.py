@@ -170,7 +170,7 @@ class MotionGenerator:
         named: Any = name_or_folder
         if not isinstance(named, str | Path):
             kind = type(named).__name__
-            raise UsageError(f"a model is named by a text or a path, not by a {kind}")
+            raise UsageError(f"the model is a {kind}; give a name or a folder")
         if read_card(resolve_model(name_or_folder)).kind == AUDIO_KIND:
             generator = cls(audio=name_or_folder, **options)
             _ = generator.audio
