@@ -155,6 +155,11 @@ class DistillTask(Task):
                 f"teacher-steps {config.teacher_steps} leave out step {min(missing)}, which the"
                 f" student visits; choose a multiple of student-steps {config.student_steps}"
             )
+        if of_teacher[0] != own[0]:
+            raise UsageError(
+                f"teacher-steps {config.teacher_steps} begin with more noise than student-steps"
+                f" {config.student_steps}; give timestep-spacing=trailing"
+            )
         return own
 
     # ------------------------------------------------------------ what the teacher does
@@ -165,7 +170,7 @@ class DistillTask(Task):
         kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
                 "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
                 "captured_share", "languages"}  # fmt: skip
-        made_of = {**self.identity, **config.model_dump(mode="json", include=kept)}
+        made_of = {"kept": "aims", **self.identity, **config.model_dump(mode="json", include=kept)}
         made = {"made-of": f"{mix_seed(str(sorted(made_of.items()))):x}"}
         for number in range(config.pair_batches):
             file = self._file("train", number)
@@ -304,6 +309,7 @@ class DistillTask(Task):
         generation = before.network.generation.model_copy(
             update={
                 "guidance_scale": 1.0,
+                "sampler": "ddim",  # whose steps it has learned
                 "sampling_steps": config.student_steps,
             }
         )

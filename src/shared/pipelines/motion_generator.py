@@ -31,6 +31,7 @@ from ..motion.motion import Motion
 from .edit import ControlledMotion, Given, edited
 from .path import DrawnPath, TimedPath, along_path, time_path
 from .ranking import PerformanceJudge, ScoreTable, TextJudge, load_tower, own_tower, unranked
+from .sentence import whole
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import SentenceGenerator
 from .timeline import Timeline
@@ -449,8 +450,11 @@ class MotionGenerator:
                 kinematics tell; None = nothing is said.
             tag, sampling, foot_lock: see `generate`.
         """
-        miss = None if prompt is None else self.sentences.unseen(prompt)
-        made = edited(self.text, prompt, given, sampling, tag=tag, foot_lock=foot_lock, miss=miss)
+        own, said, miss = self.sentences, prompt, None
+        if prompt is not None:
+            said, miss = whole(prompt, own.clauses(prompt)), own.unseen(prompt)
+        made = edited(self.text, said, given, sampling, tag=tag, foot_lock=foot_lock, miss=miss)
+        made = replace(made, motion=replace(made.motion, text=prompt or ""))
         free = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())
         if prompt is not None and len(free):
             anew = made.motion.frames(free[0], free[-1] + 1)

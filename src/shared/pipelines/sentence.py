@@ -138,8 +138,11 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     first = found[0].text
     if words.downs.match(first) and known(first).action in LOW:
         found.insert(0, Clause(STANDS, seconds=BEFORE))
-    elif stands and words.ups.match(first) and read(SITS).action in LOW:
-        found.insert(0, Clause(SITS, seconds=BEFORE))
+    elif stands and read(SITS).action in LOW:
+        if words.ups.match(first):
+            found.insert(0, Clause(SITS, seconds=BEFORE))
+        elif first == STANDS and words.ups.match(found[-1].text) and len(found) == 2:
+            found[0] = replace(found[0], text=SITS)  # "gets up after three seconds"
     if not stands:
         return found
     return [replace(each, text=words.ups.sub(STANDS, each.text)) for each in found]
@@ -547,6 +550,8 @@ def _with_measures(text: str) -> Clause:
         if not 0 < value <= MOST[field]:
             continue
         stays, before = "", clause.text[: match.start()]
+        if words.larger.search(before):
+            return clause  # "a hundred and fifty metres" are not fifty
         if name == "steps" and (not before.strip() or words.takes.search(before)):
             article, _, noun = words.steps[bare(match["noun"])].rpartition(" ")
             stays = f"{article} {match['manner'] or ''}{noun}".strip()

@@ -45,7 +45,10 @@ _ONES = "一二三四五六七八九"
 _TENS = f"(?:[{_ONES}]十|十(?=[{_ONES}]))[{_ONES}]?"  # 十 alone is a word of its own
 _DIGITS = rf"(?:\d+(?:[.,]\d+)?|(?:[{_ONES}两]百零?(?:{_TENS}|[{_ONES}])?|{_TENS}))"
 # Japanese says what is not done before its denial.
-_NOT_THIS = "[^、。，,]+?(?:[のん](?:では|じゃ)なく(?:て)?|の?(?:代|か)わりに)[、，,]?"
+_NOT = "(?:[のん](?:では|じゃ)なく(?:て)?|の?(?:代|か)わりに)"
+_NOT_THIS = f"(?:^|(?<=[、。，,]))[^、。，,]{{1,40}}?{_NOT}[、，,]?"
+# German says its verb behind what is done with it.
+_STATT = rf"(?<!{_LETTER})(?:an)?statt\s[^,;.!?]{{0,60}}?\bzu\s+{_LETTER}+n\b,?"
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
 NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
 
@@ -101,7 +104,7 @@ class Words:
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
         self.aside = re.compile(_any([*owned, *all_of("limbs"), *all_of("aside")]), re.I)
         self.lacking = re.compile(_any(all_of("lacking")), re.I)
-        denial = rf"\s*{_any(all_of('denied'))}.*?(?:{_STOPS}|{_any(all_of('but'))})"
+        denial = rf"\s*{_any(all_of('denied'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.denial = re.compile(rf"(?:{denial})+", re.I)
         own = _any(owned)
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
@@ -128,6 +131,8 @@ class Words:
         steps = {noun: stays for table in tables for noun, stays in table["steps"].items()}
         self.steps = {bare(noun.partition("/")[0]): stays for noun, stays in steps.items()}
         self.takes = re.compile(_any(all_of("takes")), re.I)
+        larger = rf"(?:{_any(all_of('larger'))}|{_any(numbers)})"
+        self.larger = re.compile(rf"{larger}(?:\s+{_any(all_of('and'))})?[\s-]*$", re.I)
         half = rf"(?P<half>\s*{_any(all_of('half'))})?{_trail()}"
 
         def measure(name: str) -> str:
@@ -187,16 +192,18 @@ class Words:
         self.arms = re.compile(_any(all_of("limbs")), re.I)
         self.uncounted = re.compile(_any(all_of("uncounted")), re.I)
         self.about = re.compile(_any(all_of("about")), re.I)
-        refused = rf"{_any(all_of('refuses'))}.*?(?:{_STOPS}|{_any(all_of('but'))})"
+        refused = rf"{_any(all_of('refuses'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
-        self.instead = re.compile(rf"{_any(all_of('instead'))}\s*|{_NOT_THIS}", re.I)
+        who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
+        instead = rf"{_any(all_of('instead'))}(?:[^,;.!?]{{0,60}}?(?:{who}))?"
+        self.instead = re.compile(rf"(?:{instead}|{_STATT}|{_NOT_THIS})\s*", re.I)
         goals = {to: plain for table in tables for plain, many in table.get("goals", {}).items()
                  for to in many}  # fmt: skip
         there = rf"{CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
         nowhere = _any([*all_of("left"), *all_of("right"), *all_of("nowhere")])
         goal = rf"(?P<way>{_any(goals)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
         self.goal = re.compile(goal, re.I)
-        self.plainly |= {bare(to): plain for to, plain in goals.items()}
+        self.plainly |= {bare(to): plain for to, plain in goals.items()} | goals
         sideways = _any([*owned, *all_of("toward")])
         self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
@@ -295,8 +302,8 @@ def tidied(sentence: str) -> str:
     text = words.short.sub(lambda cut: cut[0][:-1], text)
     text = words.halt_alone.sub(STANDS, text)
     text = words.idiom.sub(lambda said: words.plainly[bare(plain_text(said[0]))], text)
-    text = words.goal.sub(lambda said: words.plainly[bare(plain_text(said["way"]))], text)
-    text = words.instead.sub("", text).lstrip(EDGES) or text
+    text = words.goal.sub(_going, text)
+    text = words.instead.sub(_without, text).lstrip(EDGES) or text
     text = words.undone.sub(_undone, text)
     for late in (words.late_seconds, words.late_minutes):
         text = late.sub(r"\g<pause> \g<verb> \g<rest>", text)
@@ -314,6 +321,17 @@ def tidied(sentence: str) -> str:
             text = text[numbers[0].end() :]
         text = NUMBERED.sub(ARROW, text)
     return sentence if text == plain else text
+
+
+def _going(said: re.Match[str]) -> str:
+    """Only that somebody goes, in the words of the language that it is."""
+    way, plainly = plain_text(said["way"]).casefold(), all_words().plainly
+    return str(plainly[way if way in plainly else bare(way)])
+
+
+def _without(said: re.Match[str]) -> str:
+    """Nothing of what is not done, but for a stop that parts what stands around it."""
+    return ", " if said.start() and said[0].rstrip()[-1:] in (",", ";", "，", "、") else ""
 
 
 def _pause(said: re.Match[str], factor: float) -> str:

@@ -358,7 +358,8 @@ export class Director {
       given = keepEnds(own, mode === "between" ? (clip.second ?? motion) : null, kept, frames, mode === "between" && !clip.second);
     }
     const more = text ? { miss: this.unseen(text) } : { guidance: 0 };
-    const { features, known } = await fill(this.sampler, text || NO_TEXT, given, seed, { ...options, ...more });
+    const said = text && this.reader.whole(text, this.reader.clauses(text));
+    const { features, known } = await fill(this.sampler, said || NO_TEXT, given, seed, { ...options, ...more });
     return postProcess(features, this.settings.post, { known, text, place: given.place });
   }
 }

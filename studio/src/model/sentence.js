@@ -82,7 +82,10 @@ export class SentenceReader {
     if (!real.length) real = [plainClause(sentence)];
     const { text: first } = real[0], stands = this.stands();
     if (this.first.downs.test(first) && LOW.includes(this.read(first).action)) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
-    else if (stands && this.first.ups.test(first) && LOW.includes(this.read(SITS).action)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
+    else if (stands && LOW.includes(this.read(SITS).action)) {
+      if (this.first.ups.test(first)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
+      else if (first === STANDS && real.length === 2 && this.first.ups.test(real[1].text)) real[0] = { ...real[0], text: SITS }; // "gets up after three seconds"
+    }
     return stands ? real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) })) : real;
   }
 
@@ -159,8 +162,12 @@ export class SentenceReader {
     text = (text.replace(this.first.closing, "") || text).replace(this.each.short, (cut) => cut.slice(0, -1));
     text = text.replace(this.first.halt_alone, STANDS);
     text = text.replace(this.each.idiom, (said) => this.plainly[bare(said)]);
-    text = text.replace(this.each.goal, (...found) => this.plainly[bare(found.at(-1).way)]);
-    text = stripStart(text.replace(this.each.instead, "")) || text;
+    text = text.replace(this.each.goal, (...found) => {
+      const way = plain(found.at(-1).way).toLowerCase();
+      return this.plainly[way] ?? this.plainly[bare(way)];
+    });
+    text = stripStart(text.replace(this.each.instead, (said, ...found) =>
+      found.find(Number.isInteger) && /[,;，、]$/u.test(said.trimEnd()) ? ", " : "")) || text;
     const armed = text;
     text = text.replace(this.each.undone, (said, ...found) => {
       const at = found.find(Number.isInteger), before = armed.slice(0, at), more = strip(armed.slice(at + said.length));
@@ -402,6 +409,7 @@ export class SentenceReader {
       const value = (this.value(match.groups.number) + (half ? 0.5 : 0)) * factor + (clause[field] ?? 0); // a minute and ten seconds
       if (!(value > 0 && value <= this.most[field])) continue;
       const before = clause.text.slice(0, match.index);
+      if (this.first.larger.test(before)) return clause; // "a hundred and fifty metres" are not fifty
       const stays = name === "steps" && (!before.trim() || this.first.takes.test(before)) ? this.stepping(manner ?? "", this.steps[bare(noun)]) : "";
       const rest = this.without(clause.text, match, stays);
       if (rest || name !== "steps") clause = { ...clause, text: rest, [field]: value };

@@ -124,19 +124,21 @@ def test_a_full_disk_is_one_line(tmp_path: Path) -> None:
     assert not [path for path in tmp_path.rglob("*") if path.is_file()]
 
 
-def test_what_is_held_back_anew_is_told(tmp_path: Path) -> None:
+def test_what_is_held_back_anew_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = bvh_folder(tmp_path / "in", 2)
     source = MotionFolder.open(root, captions=[root / "captions.csv"])
-    prepare([source], tmp_path / "out", workers=1)
-    file = tmp_path / "out" / "clips.jsonl"
-    rows = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
-    held = {row["id"] for row in rows if row["split"] != "train"}
-    trained = [row | {"split": "train"} for row in rows]
-    for lines, now in ((map(json.dumps, trained), held), (["{damaged"], set())):
-        file.write_text("\n".join(lines), encoding="utf-8")
-        report = prepare([source], tmp_path / "out", workers=1)
-        assert set(report["held_back_now"]) == now
-        assert [json.loads(line) for line in file.read_text().splitlines()] == rows
+    assert prepare([source], tmp_path / "out", workers=1)["held_back_now"] == []
+    usual = prepare_module.assign_splits
+    monkeypatch.setattr(
+        prepare_module,
+        "assign_splits",
+        lambda *given: usual(*given) | {"in/take1": "test_seen"},
+    )
+    report = prepare([source], tmp_path / "out", workers=1)
+    assert report["held_back_now"] == ["in/take1.bvh", "in/take1.bvh~mirrored"]
+    assert prepare([source], tmp_path / "out", workers=1)["held_back_now"] == []
+    (tmp_path / "out" / "clips.jsonl").write_text("{damaged", encoding="utf-8")
+    assert prepare([source], tmp_path / "out", workers=1)["held_back_now"] == []
 
 
 def test_an_interrupted_run_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.memory.figures import FigureMemory, Take
+from src.shared.memory.figures import FigureMemory, Figures, Take
 from src.shared.memory.steps import STEPS, made_take
 from src.shared.pipelines import choreography
 from src.shared.pipelines.choreography import (
@@ -164,16 +165,23 @@ def test_a_dance_ends_with_a_whole_figure_to_the_front() -> None:
     for seconds in np.arange(12.2, 16.2, 0.5):  # cut anywhere in a phrase of four seconds
         slots = song_slots(*song(seconds=float(seconds)))
         assert 4 < len(slots[-1].counts) - 1 <= 12, seconds
-    turning = tiny_figures()
     slots = song_slots(*song(seconds=20))
     ends = []
     for gain in (0.0, 1000.0):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(choreography, "AT_END", gain)
-            chosen = Choreographer(turning).choose(slots, Wish(), 0)
-            assert chosen is not None
-            ends.append(np.cos(sum(float(each.turn[0]) for each in chosen)))
-    assert ends[1] >= ends[0]
+            choreographer = Choreographer(tiny_figures())
+            usual = choreographer.figures
+
+            def turning(counts: int, usual: Any = usual) -> Figures:
+                found = usual(counts)  # every other one turns by a third of a circle
+                return replace(found, turn=np.where(np.arange(len(found)) % 2, 2.1, 0.0))
+
+            patch.setattr(choreographer, "figures", turning)
+            found = [choreographer.choose(slots, Wish(), seed) for seed in range(4)]
+            turned = [sum(float(each.turn[0]) for each in chosen or ()) for chosen in found]
+            ends.append(float(np.cos(turned).mean()))
+    assert ends[1] > ends[0] + 0.1
 
 
 def test_one_figure_alone_is_quiet_and_lively() -> None:

@@ -130,6 +130,10 @@ DENIED = [
     ("别跑，踮着脚尖走", "crouch-walk"),
     ("don't jump, tiptoe across", "crouch-walk"),
     ("no salta sino que camina", "walk"),
+    ("instead of raising the left arm, he bows", "bow"),
+    ("au lieu de sauter trois fois, il marche", "walk"),
+    ("en vez de correr rápido, camina", "walk"),
+    ("statt den linken Arm zu heben, geht er", "walk"),
 ]
 
 
@@ -193,7 +197,13 @@ STAYING = [
     ("turn left, go straight for two metres, turn right",
      "turn left / go straight / turn right"),
     ("gira a la derecha 90 grados y avanza un metro", "gira a la derecha / avanza"),
+    ("gets up after three seconds", "sits 3 / stands still"),
+    ("walks instead of running, waves and bows", "walks / waves / bows"),
+    ("va a la cama", "camina"),
     # and what only sounds like it
+    ("he goes to his knees", "he goes to his knees"),
+    ("goes to a squat", "goes to a squat"),
+    ("va al trote", "va al trote"),
     ("walks to the left, then waves", "walks to the left / waves"),
     ("va a la derecha y saluda", "va a la derecha / saluda"),
     ("walks to the beat", "walks to the beat"),

@@ -143,6 +143,10 @@ def test_other_words_are_left_alone(sentence: str):
         ("三十秒間手を振る", Clause("手を振る", seconds=30)),
         ("向左转一百三十五度", Clause("向左转", degrees=135)),
         ("walks a dozen metres", Clause("walks", metres=12)),
+        ("walks twenty five metres", Clause("walks twenty five metres")),  # not five
+        ("camina ciento cincuenta metros", Clause("camina ciento cincuenta metros")),
+        ("spins one and a half times", Clause("spins", degrees=540)),
+        ("claps one and a half times", Clause("claps one and a half times")),
         ("court une dizaine de mètres", Clause("court", metres=10)),
         ("geht vierzig Sekunden", Clause("geht", seconds=40)),
         ("er dreht sich um", Clause("er dreht sich um", degrees=180)),
@@ -270,7 +274,8 @@ def test_ways_and_turns_of_their_own_measure_are_clauses_of_their_own():
         "walks" + " and" * 40,
         "一个人走路" + "…" * 40 + "挥手",
         "she waves :" + ")" * 60, "what" + "?!" * 30 + " jumps", "walks " + ">" * 60 + " waves",
-        "un " * 300 + "x", "to the left " * 60,
+        "un " * 300 + "x", "to the left " * 60, "walk " * 2000, "二十" * 1000, "不是" * 800,
+        "statt zu " * 500, "instead of running " * 60,
     ],
 )  # fmt: skip
 def test_hostile_sentences_are_read_in_no_time(sentence: str):
