@@ -158,10 +158,9 @@ class Words:
         ends = rf"(?=\s*(?:$|{_STOPS}|{_any(joints)}|{then}))"
         verb = rf"(?<!{_LETTER})(?P<verb>{_LETTER}+(?:\s+{_any(all_of('reflexive'))}){{0,2}})\s+"
         rest = rf"\s+(?P<rest>(?:{_any(all_of('again'))}\s+)?{_any(all_of('particles'))}){ends}"
-        self.late_seconds, self.late_minutes = (
-            re.compile(rf"{verb}(?P<pause>{after}\s*{measure(name)}){rest}", re.I)
-            for name in ("seconds", "minutes")
-        )
+        lasting = _any([*all_of("seconds"), *all_of("minutes")])
+        long = rf"[^\s,;.]+(?:\s+[^\s,;.]+)?\s*{lasting}"
+        self.late = re.compile(rf"{verb}(?P<pause>{after}\s+{long}){rest}", re.I)
         undone = rf"{_any(all_of('undone'))}(?:\s*{_any(all_of('again'))})*"
         first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
         joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
@@ -173,7 +172,6 @@ class Words:
         further += rf"|{blank}{then}\s*{_COMMAS}?\s*|(?<={CJK_SIGN}))"
         further += rf"(?:{_any(all_of('who'))}\s*)?"
         halts = rf"{_any(all_of('halts'))}(?:\s*{_any(all_of('abruptly'))})*"
-        lasting = _any([*all_of("seconds"), *all_of("minutes")])
         amount = rf"(?:{_DIGITS}|{_any([*numbers, *fractions])})[\s-]*{lasting}"
         ends = rf"(?:{ends}|(?=\s*{_lead()}{amount}))"
         self.halts = re.compile(rf"{further}{halts}{ends}", re.I)
@@ -197,11 +195,15 @@ class Words:
         who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
         instead = rf"{_any(all_of('instead'))}(?:[^,;.!?]{{0,60}}?(?:{who}))?"
         self.instead = re.compile(rf"(?:{instead}|{_STATT}|{_NOT_THIS})\s*", re.I)
-        goals = {to: plain for table in tables for plain, many in table.get("goals", {}).items()
-                 for to in many}  # fmt: skip
+        goals, ways = dict[str, str](), list[str]()
+        for table in filter(lambda table: "goals" in table, tables):
+            verbs = {verb: plain for plain, many in table["goals"].items() for verb in many}
+            tos = table.get("goes_to", [])
+            goals |= {f"{verb} {to}".rstrip(): verbs[verb] for verb in verbs for to in tos or [""]}
+            ways.append(rf"{_any(verbs)}\s+{_any(tos)}" if tos else _any(verbs))
         there = rf"{CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
         nowhere = _any([*all_of("left"), *all_of("right"), *all_of("nowhere")])
-        goal = rf"(?P<way>{_any(goals)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
+        goal = rf"(?P<way>{'|'.join(ways)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
         self.goal = re.compile(goal, re.I)
         self.plainly |= {bare(to): plain for to, plain in goals.items()} | goals
         sideways = _any([*owned, *all_of("toward")])
@@ -305,8 +307,7 @@ def tidied(sentence: str) -> str:
     text = words.goal.sub(_going, text)
     text = words.instead.sub(_without, text).lstrip(EDGES) or text
     text = words.undone.sub(_undone, text)
-    for late in (words.late_seconds, words.late_minutes):
-        text = late.sub(r"\g<pause> \g<verb> \g<rest>", text)
+    text = words.late.sub(r"\g<pause> \g<verb> \g<rest>", text)
     for name, pause in words.pauses.items():
         factor = UNITS[name.partition("_")[2]][1]
         text = pause.sub(partial(_pause, factor=factor), text)

@@ -174,7 +174,7 @@ export class SentenceReader {
       if (!this.first.arms.test(before)) return said;
       return this.first.held.test(`${before},`) ? `${ARROW}${STANDS} for ${ARRIVES} seconds${more ? ARROW : ""}` : "";
     });
-    for (const name of ["late_seconds", "late_minutes"]) text = text.replace(this.each[name], "$<pause> $<verb> $<rest>");
+    text = text.replace(this.each.late, "$<pause> $<verb> $<rest>");
     for (const [name, factor] of PAUSES)
       text = text.replace(this.each[name], (...found) => {
         const { number, half } = found.at(-1), seconds = (this.value(number) + (half ? 0.5 : 0)) * factor;
