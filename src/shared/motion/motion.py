@@ -17,7 +17,7 @@ from .rotations import (
 )
 from .skeleton import PARENTS, canonical_skeleton
 
-SAME_RATE = 1e-3  # relative; files say 0.033333 s for 30 fps
+SAME_RATE, ROUNDED = 1e-3, 2e-5  # relative; files say 0.033333 s for 30 fps
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +102,9 @@ def resample_motion(motion: Motion, fps: float) -> Motion:
     if abs(fps / motion.fps - 1) < SAME_RATE or motion.num_frames < 2:
         return replace(motion, fps=fps)
     last = motion.num_frames - 1
-    times = np.arange(int(last / motion.fps * fps + 1e-3) + 1) * (motion.fps / fps)
+    steps = last / motion.fps * fps  # but for how many digits a file gives its frame time
+    number = int(steps + min(ROUNDED * steps, 0.5) + 1e-6) + 1
+    times = np.minimum(np.arange(number) * (motion.fps / fps), last)
     before = np.minimum(times.astype(int), last - 1)
     part = (times - before).astype(np.float32)
     q = torch.as_tensor(motion.quaternions)

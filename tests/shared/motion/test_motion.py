@@ -162,6 +162,15 @@ def test_resampling_agrees_with_scipy_slerp() -> None:
         resample_motion(motion, 0)
 
 
+@pytest.mark.parametrize("frame_time", ["0.03333333", "0.033333"])
+def test_a_rounded_frame_time_costs_no_frame(frame_time: str) -> None:
+    for frames in (2, 120, 9000):
+        motion = random_motion(7, frames=frames, fps=1 / float(frame_time))
+        twice = resample_motion(motion, 60.0)
+        assert twice.num_frames == 2 * frames - 1
+        np.testing.assert_allclose(twice.root_position[-1], motion.root_position[-1], atol=1e-3)
+
+
 def test_contacts_need_a_low_and_slow_foot() -> None:
     motion = rest_motion(30)
     assert detect_contacts(motion.positions(), 30).min() == 1
