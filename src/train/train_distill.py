@@ -158,7 +158,7 @@ class DistillTask(Task):
         if of_teacher[0] != own[0]:
             raise UsageError(
                 f"teacher-steps {config.teacher_steps} begin with more noise than student-steps"
-                f" {config.student_steps}; give timestep-spacing=trailing"
+                f" {config.student_steps}; give network.generation.timestep-spacing=trailing"
             )
         return own
 
