@@ -2,9 +2,9 @@
 
     python -m benchmarks.studio --runs 3
 
-Seconds from the start of loading until the model is there and until the first motion is shown (4 s,
-10 steps); *next*, from the wish for another seed until that motion is made. Nothing is drawn by a
-graphics card. Each run is a browser of its own with an empty profile.
+Seconds from the start of loading until the model is there and until the first motion is shown (4 s);
+*next*, from the wish for another seed until that motion is made. Nothing is drawn, for want of
+WebGL. Each run is a browser of its own with an empty profile.
 """
 
 import argparse
@@ -21,7 +21,7 @@ SEEDS = 5
 def measured(page: Path) -> list[float]:
     """Loaded, first and median next of one browser, in seconds."""
     with (
-        tempfile.TemporaryDirectory() as profile,
+        tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
         Browser(page.as_uri(), Path(profile), ready="typeof studio === 'object'") as browser,
     ):
         browser.wait("studio.timings?.first !== undefined", 180)

@@ -156,7 +156,7 @@ def export_onnx(
     from ..shared.model.checkpoint import read_card, resolve_model, wrong_kind
     from ..shared.model.onnx_card import EXPORTED, ONNX_CARD, OnnxCard, require_packages
 
-    require_packages("onnx", "onnxscript")
+    require_packages("onnx", "onnxscript", "onnxruntime")
     name = environment.TEXT_MODEL if model is None else model
     folder = resolve_model(name)
     kind = read_card(folder).kind

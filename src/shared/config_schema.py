@@ -93,7 +93,7 @@ class DiffusionConfig(Config):
     prediction_type: Literal["epsilon", "sample", "v"] = "epsilon"
     loss_type: Literal["mse", "l1", "huber"] = "mse"
     clip_sigma: float | None = Field(6.0, gt=0)  # limit on predicted x0, in standard deviations
-    timestep_spacing: Literal["leading", "linspace", "trailing"] = "trailing"
+    timestep_spacing: Literal["halved", "leading", "linspace", "trailing"] = "trailing"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
     eta: float = Field(0.0, ge=0, le=1)
@@ -151,7 +151,7 @@ class GenerationConfig(Config):
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
     guidance_scale: float = Field(2.5, ge=0)
-    timestep_spacing: Literal["leading", "linspace", "trailing"] = "trailing"
+    timestep_spacing: Literal["halved", "leading", "linspace", "trailing"] = "trailing"
     clip_sigma: float | None = Field(6.0, gt=0)
     post_processing: PostProcessingConfig = PostProcessingConfig()
 

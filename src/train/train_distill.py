@@ -54,6 +54,7 @@ from .text_stages import (
 )
 from .train_generation import Conditions, GuidedDenoiser, draw_known
 
+SPACING = "trailing"  # of both: every step of the student is so many of the teacher's
 PAIRS_FOLDER = "pairs"  # in the output folder: a resumed run reads it
 TOLD_EVERY = 20  # files of pairs
 
@@ -147,18 +148,13 @@ class DistillTask(Task):
         """Steps of the process that the student visits, the noisiest first."""
         config, process = self.config, self.diffusion.config
         of_teacher, own = (
-            sampling_timesteps(process.timesteps, number, process.timestep_spacing)
+            sampling_timesteps(process.timesteps, number, SPACING)
             for number in (config.teacher_steps, config.student_steps)
         )
         if missing := set(own) - set(of_teacher):
             raise UsageError(
                 f"teacher-steps {config.teacher_steps} leave out step {min(missing)}, which the"
                 f" student visits; choose a multiple of student-steps {config.student_steps}"
-            )
-        if of_teacher[0] != own[0]:
-            raise UsageError(
-                f"teacher-steps {config.teacher_steps} begin with more noise than student-steps"
-                f" {config.student_steps}; give network.generation.timestep-spacing=trailing"
             )
         return own
 
@@ -306,13 +302,8 @@ class DistillTask(Task):
     def _student(self, module: nn.Module) -> TextToMotion:
         assert isinstance(module, GuidedDenoiser)
         before, config = self.teacher, self.config
-        generation = before.network.generation.model_copy(
-            update={
-                "guidance_scale": 1.0,
-                "sampler": "ddim",  # whose steps it has learned
-                "sampling_steps": config.student_steps,
-            }
-        )
+        own = {"guidance_scale": 1.0, "sampling_steps": config.student_steps}
+        generation = self.network.generation.model_copy(update=own)
         learned = {
             "from": before.card.name,
             "steps": config.steps,
@@ -320,7 +311,7 @@ class DistillTask(Task):
             "guidance": before.network.generation.guidance_scale,
             "validation": self.figures,
         }
-        network = before.network.model_copy(update={"generation": generation})
+        network = self.network.model_copy(update={"generation": generation})
         update = {
             "name": Path(config.output).name,
             "network": network,
@@ -375,7 +366,9 @@ def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
             f"init {init} hears the tokens of a text, and pairs hold one vector a text; name a"
             " model with text-conditioning: pooled"
         )
-    return network
+    steps = {"sampler": "ddim", "timestep_spacing": SPACING}
+    generation = network.generation.model_copy(update=steps)
+    return network.model_copy(update={"generation": generation})
 
 
 app = Stage(

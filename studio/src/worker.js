@@ -3,6 +3,7 @@
 
 import { Denoiser } from "./model/denoiser.js";
 import { Engine } from "./engine.js";
+import { SentenceReader } from "./model/sentence.js";
 
 /** Answer { id, call, ...arguments } with { id, result } or { id, error }; parts come first. */
 export function serve(scope) {
@@ -22,15 +23,23 @@ export function serve(scope) {
 export function handler() {
   let engine = null;
   return async (call, args, told) => {
+    if (call === "prepare") { prepare(args); return null; }
     if (call === "open") { engine = await Engine.open(args.settings, args.parts); return null; }
-    if (call === "help") { await help(args); return null; }
+    if (call === "help") { help(args); return null; }
     if (call === "helper") { engine.director.sampler.denoiser.helper = remote(args.port); return null; }
     return engine[call](args, told);
   };
 }
 
-async function help({ parts, port }) {
-  const denoiser = await Denoiser.open(parts);
+/** Patterns are compiled when they are first met, and again when they are met a second time; what is compiled is kept. */
+function prepare({ settings, texts }) {
+  const reader = new SentenceReader(settings.measures, () => ({ action: null, certainty: -Infinity, arms: false }));
+  for (const text of [...texts, ...texts]) reader.clauses(text);
+}
+
+function help({ parts, names, port }) {
+  const denoiser = new Denoiser(parts, names);
+  denoiser.session(parts.adapted ? "adapted" : "graph").catch(() => null); // while the other one reads the sentence
   port.onmessage = async ({ data: { id, args } }) => {
     try { port.postMessage({ id, result: await denoiser.predict(...args) }); }
     catch (error) { port.postMessage({ id, error: String(error) }); }

@@ -74,7 +74,9 @@ def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tupl
     """The N of S steps that a sampler visits, largest first (Lin et al. 2023, table 2).
 
     `trailing` always starts at S-1, where training ends; `leading` never does and is here for
-    checkpoints that were tuned with it. One step starts at S-1 under `linspace` as well.
+    checkpoints that were tuned with it. One step starts at S-1 under `linspace` as well. `halved`
+    is trailing in N-1 steps with the first of them in two halves: from noise alone the prediction
+    is farthest from where it ends (docs/experiments.md, section 60).
 
     Raises:
         UsageError: N is not within 1 ... S, or the spacing is unknown.
@@ -87,13 +89,19 @@ def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tupl
     count = np.arange(num_steps)
     if spacing == "trailing":
         steps = np.round(num_timesteps - count * (num_timesteps / num_steps)) - 1
+    elif spacing == "halved":
+        if 2 * (num_steps - 1) > num_timesteps:  # half a step would be none
+            return sampling_timesteps(num_timesteps, num_steps, "trailing")
+        places = np.concatenate(([0, 0.5], count[1:-1]))[:num_steps]
+        steps = np.round(num_timesteps - places * (num_timesteps / max(1, num_steps - 1))) - 1
     elif spacing == "linspace":
         steps = np.round(np.linspace(num_timesteps - 1, 0, num_steps))
     elif spacing == "leading":
         steps = count[::-1] * (num_timesteps // num_steps)
     else:
         raise UsageError(
-            f"timestep-spacing {spacing!r} is unknown; choose one of leading, linspace, trailing"
+            f"timestep-spacing {spacing!r} is unknown; choose one of halved, leading, linspace,"
+            " trailing"
         )
     return tuple(int(step) for step in steps)
 

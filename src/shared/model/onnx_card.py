@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 ONNX_CARD = "onnx.json"
 OPSET = 18
+READY, TURNED = "ready-", "/turned"  # before the name of a graph that is, behind that of a weight
 AUDIO_GRAPHS = ("condition.onnx", "unet.onnx", "decoder.onnx")
 TEXT_KIND, AUDIO_KIND = EXPORTED = "motion-generator", "audio-motion"  # models it is made of
 
@@ -36,12 +37,13 @@ class ValueInfo(Config):
 
 
 class GraphInfo(Config):
-    """What a graph file must be."""
+    """What a graph file must be; `weights`: the files of one that is ready (docs/onnx.md)."""
 
     sha256: str
     bytes: int
     inputs: dict[str, ValueInfo]
     outputs: dict[str, ValueInfo]
+    weights: tuple[str, ...] = ()
 
 
 class ProcessInfo(Config):

@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 import numpy as np
@@ -24,7 +25,16 @@ from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_card, read_ten
 from .diffusion import GaussianDiffusion
 from .layers.transformer import RotaryEmbedding
 from .noise import sampling_timesteps
-from .onnx_card import ONNX_CARD, OPSET, CardT, GraphInfo, ProcessInfo, ValueInfo
+from .onnx_card import (
+    ONNX_CARD,
+    OPSET,
+    READY,
+    TURNED,
+    CardT,
+    GraphInfo,
+    ProcessInfo,
+    ValueInfo,
+)
 
 EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
 Shapes = Mapping[int, Any]  # dimension -> its symbol: a name, or a `torch.export.Dim`
@@ -90,6 +100,10 @@ def write_graph(model: Any, path: Path) -> GraphInfo:
         UserError: it cannot be written.
     """
     link_weights(model, path.parent)
+    return _write(model, path)
+
+
+def _write(model: Any, path: Path, weights: tuple[str, ...] = ()) -> GraphInfo:
     with atomic_write(path) as temporary:
         temporary.write_bytes(model.SerializeToString(deterministic=True))
     return GraphInfo(
@@ -97,6 +111,7 @@ def write_graph(model: Any, path: Path) -> GraphInfo:
         bytes=path.stat().st_size,
         inputs={value.name: _info(value) for value in model.graph.input},
         outputs={value.name: _info(value) for value in model.graph.output},
+        weights=weights,
     )
 
 
@@ -120,6 +135,7 @@ def write_export(
     graphs: Mapping[str, Any],
     kind: type[CardT],
     card: ModelCard,
+    also_ready: Sequence[str] = (),
     **own: Any,
 ) -> CardT:
     """Write a model folder with graphs of `traced` and the card that vouches for them.
@@ -131,6 +147,7 @@ def write_export(
         graphs: by the names of their files.
         kind: of the card.
         card: of the model.
+        also_ready: those of the graphs that are written as `ready` makes them, too.
         own: what the card of this kind says besides.
 
     Raises:
@@ -141,6 +158,11 @@ def write_export(
         if given.is_file() and not (target.exists() and target.samefile(given)):
             with atomic_write(target) as temporary:
                 shutil.copyfile(given, temporary)
+    written = {
+        READY + name: _write(path=folder / (READY + name), **ready(graphs[name], folder))
+        for name in also_ready
+    }
+    written |= {name: write_graph(graph, folder / name) for name, graph in graphs.items()}
     result = kind(
         name=card.name,
         description=card.description,
@@ -148,7 +170,7 @@ def write_export(
         trained=card.trained,
         model=card.content_hash,
         fps=card.fps,
-        graphs={name: write_graph(graph, folder / name) for name, graph in graphs.items()},
+        graphs=written,
         **own,
     )
     write_json(folder / ONNX_CARD, result.model_dump(mode="json", by_alias=True))
@@ -167,13 +189,7 @@ def link_weights(model: Any, folder: Path) -> None:
     """
     from onnx import helper, numpy_helper
 
-    header = _header(folder / WEIGHTS_FILE)
-    known: dict[str, tuple[str, bool]] = {}
-    for name, tensor in read_tensors(folder, read_card(folder)).items():
-        value = tensor.numpy()
-        known[_digest(value)] = (name, False)
-        if value.ndim == 2:
-            known.setdefault(_digest(value.T), (name, True))
+    header, known = _header(folder / WEIGHTS_FILE), _known(folder)
     graph, outside, nodes = model.graph, dict[str, Any](), list[Any]()
     rest, inside = list(graph.node), list[Any]()
     for each in graph.initializer:
@@ -197,6 +213,52 @@ def link_weights(model: Any, folder: Path) -> None:
     graph.ClearField("node")
     graph.initializer.extend([*inside, *outside.values()])
     graph.node.extend([*nodes, *rest])
+
+
+def ready(model: Any, folder: Path) -> dict[str, Any]:
+    """The `model` of `traced` as onnxruntime optimises it, to open without doing so again, and the
+    files that its `weights` are in.
+
+    Each holds a tensor of the folder's model.safetensors as float32 and has its name, with TURNED
+    behind it where it is transposed. Who opens the graph hands them over: from int8 and scales ONNX
+    makes floats by nodes alone, and to fold these away is most of opening.
+    """
+    import onnx
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.graph_optimization_level = onnxruntime.GraphOptimizationLevel.ORT_ENABLE_EXTENDED
+    options.log_severity_level = 3  # errors
+    with TemporaryDirectory() as scratch:
+        options.optimized_model_filepath = str(Path(scratch) / "ready.onnx")
+        onnxruntime.InferenceSession(
+            model.SerializeToString(), options, providers=["CPUExecutionProvider"]
+        )
+        found = onnx.load(options.optimized_model_filepath)
+    used = {node.domain for node in found.graph.node}
+    versions = [each for each in found.opset_import if each.domain in used]
+    found.ClearField("opset_import")
+    found.opset_import.extend(versions)
+    known, names = _known(folder), list[str]()
+    for each in found.graph.initializer:
+        name, turned = known.get(_digest(onnx.numpy_helper.to_array(each)), ("", False))
+        if name and each.data_type == onnx.TensorProto.FLOAT:
+            names.append(name + TURNED * turned)
+            each.ClearField("raw_data")
+            each.data_location = onnx.TensorProto.EXTERNAL
+            each.external_data.add(key="location", value=names[-1])
+    return {"model": found, "weights": tuple(names)}
+
+
+def _known(folder: Path) -> dict[str, tuple[str, bool]]:
+    """Digests of a folder's tensors, as they are and transposed: their names, and which it is."""
+    known = dict[str, tuple[str, bool]]()
+    for name, tensor in read_tensors(folder, read_card(folder)).items():
+        value = tensor.numpy()
+        known[_digest(value)] = (name, False)
+        if value.ndim == 2:
+            known.setdefault(_digest(value.T), (name, True))
+    return known
 
 
 def _looks_up(node: Any, table: str) -> bool:

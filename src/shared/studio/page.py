@@ -28,6 +28,7 @@ from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
 from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
+from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card, require_packages
 from ..motion.postprocess.whole import smoothing_weights
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
@@ -35,6 +36,7 @@ from ..pipelines.words import javascript_patterns
 
 WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
 LICENCES = "licences.txt.gz"
+SAMPLERS = ("ddim", "dpm-solver++")  # that the page's scripts know
 
 
 def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
@@ -51,9 +53,10 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     folder = resolve_model(model)
     card = read_card(folder)
     _check(card, folder)
+    graphs = graphs_of(folder)
     parts = {
         "wasm": shell.joinpath(WASM).read_bytes(),
-        **graphs_of(folder),
+        **{kind: graph for kind, (graph, _) in graphs.items()},
         "weights": (folder / WEIGHTS_FILE).read_bytes(),
         "tokenizer": (folder / TOKENIZER_FOLDER / MODEL_FILE).read_bytes(),
         "scope": (folder / TABLE_FILE).read_bytes(),
@@ -65,7 +68,10 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
         for name, part in parts.items()
     )
     filled = {
-        "@SETTINGS@": script_safe_json(settings(folder, card)),
+        "@SETTINGS@": script_safe_json(
+            settings(folder, card)
+            | {"weights": {kind: names for kind, (_, names) in graphs.items()}}
+        ),
         "@PARTS@": blobs,
         "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
     }
@@ -96,27 +102,32 @@ def _check(card: ModelCard, folder: Path) -> None:
     if card.kind != KIND:
         raise wrong_kind(folder, card.kind, KIND)
     generation, clip = card.network.generation, card.network.clip
-    if (clip.text_model, generation.sampler, generation.text_conditioning) != (
-        PAIRS,
-        "ddim",
-        "pooled",
+    if (
+        clip.text_model != PAIRS
+        or generation.text_conditioning != "pooled"
+        or generation.sampler not in SAMPLERS
     ):
         raise UserError(
             f"{folder}: the studio runs models with clip.text-model pairs, text-conditioning pooled"
-            " and sampler ddim, as the shipped starter is; use `generate` for this one"
+            f" and sampler {' or '.join(SAMPLERS)}, as the shipped starter is; use `generate` for"
+            " this one"
         )
 
 
-def graphs_of(folder: Path) -> dict[str, bytes]:
-    """The denoiser's graphs without their weights, "graph" and, of a model with adapters,
-    "adapted": the folder's own, else exported here."""
-    if (folder / DENOISER_GRAPH).is_file():
-        found = {"graph": folder / DENOISER_GRAPH, "adapted": folder / ADAPTED_GRAPH}
-        return {name: path.read_bytes() for name, path in found.items() if path.is_file()}
+def graphs_of(folder: Path) -> dict[str, tuple[bytes, tuple[str, ...]]]:
+    """The denoiser's graphs, ready to open, "graph" and, of a model with adapters, "adapted", each
+    with the names of its weights: the folder's own, else exported here."""
+    kinds = {"graph": READY + DENOISER_GRAPH, "adapted": READY + ADAPTED_GRAPH}
+    if (folder / kinds["graph"]).is_file():
+        card = read_onnx_card(folder, TextOnnxCard)
+        return {
+            kind: ((folder / name).read_bytes(), card.graphs[name].weights)
+            for kind, name in kinds.items()
+            if name in card.graphs
+        }
     from ..model.generation.onnx import export_text
-    from ..model.onnx_card import require_packages
 
-    require_packages("onnx", "onnxscript")
+    require_packages("onnx", "onnxscript", "onnxruntime")
     with TemporaryDirectory() as scratch:
         export_text(folder, scratch)
         return graphs_of(Path(scratch))
@@ -142,6 +153,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         "tags": len(card.tags),
         "adapters": len(generation.adapter_ranks),
         "schedule": [[step, float(alpha_bar[step])] for step in steps],
+        "sampler": generation.sampler,
         "guidance": generation.guidance_scale,
         "clip": generation.clip_sigma,
         "prediction": generation.prediction_type,

@@ -7,17 +7,14 @@ import { Weights } from "./safetensors.js";
 export class Denoiser {
   /**
    * @param {object} parts bytes: wasm of onnxruntime; graph, and adapted for a model with adapters,
-   *     without weights; weights, the safetensors file they read them from
+   *     without weights; weights, a safetensors file
+   * @param {object} names of the weights that each graph reads
    */
-  static async open(parts) {
+  constructor(parts, names) {
     ort.env.wasm.numThreads = 1;
     ort.env.wasm.wasmBinary = parts.wasm.buffer;
     ort.env.logLevel = "error";
-    return new Denoiser(parts);
-  }
-
-  constructor(parts) {
-    this.parts = parts;
+    Object.assign(this, { parts, names, weights: new Weights(parts.weights) });
     this.sessions = {};
     this.adapters = {}; // of so many samples each, as they are used
     this.helper = null; // predicts as this one does, elsewhere and at the same time
@@ -26,8 +23,8 @@ export class Denoiser {
   /** Of a graph: opened when it is first needed, and again where that failed. */
   session(graph) {
     this.sessions[graph] ??= ort.InferenceSession.create(this.parts[graph], {
-      externalData: [{ path: "model.safetensors", data: this.parts.weights }],
-      graphOptimizationLevel: "extended", // "all" opens 0.1 s later and predicts no faster
+      externalData: this.names[graph].map((path) => ({ path, data: new Uint8Array(this.weights.ready(path).buffer) })),
+      graphOptimizationLevel: "disabled", // the graphs are optimised
     }).catch((error) => {
       delete this.sessions[graph];
       throw error;
@@ -39,7 +36,7 @@ export class Denoiser {
   adapter(opened, samples) {
     const key = `${opened} ${samples}`;
     if (!this.adapters[key]) {
-      const own = new Weights(this.parts.weights).adapter(opened - 1);
+      const own = this.weights.adapter(opened - 1);
       this.adapters[key] = new ort.Tensor("float32", all(Array(samples).fill(own)), [samples, own.length]);
     }
     return this.adapters[key];

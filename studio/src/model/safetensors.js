@@ -58,8 +58,19 @@ export class Weights {
       for (const end = at + width; at < end; at++) values[at] *= scales[row];
     return values;
   }
+
+  /** What a graph reads under a name: a tensor as float32, or one transposed. */
+  ready(path) {
+    const name = path.replace(TURNED, ""), values = this.floats(name);
+    if (name === path) return values;
+    const [rows, columns] = this.shape(name), turned = new Float32Array(values.length);
+    for (let row = 0, at = 0; row < rows; row++)
+      for (let column = 0; column < columns; column++) turned[column * rows + row] = values[at++];
+    return turned;
+  }
 }
 
+const TURNED = /\/turned$/; // src/shared/model/onnx_card.py
 const ADAPTER = /\.adapters\.0\.0\.weight$/;
 
 function half(bits) {

@@ -1,4 +1,4 @@
-// Prompts to features: noise, guided DDIM, known entries (src/shared/model/diffusion.py and
+// Prompts to features: noise, guidance, DDIM and DPM-Solver++(2M), known entries (src/shared/model/diffusion.py and
 // generation/motion_generator.py).
 
 import { WIDTH } from "../body/features.js";
@@ -9,7 +9,7 @@ export class Sampler {
    * @param {Denoiser} denoiser
    * @param {TextTower} tower
    * @param {object} settings of the model: mean, std [R*C], null_text, tags, schedule [[t, alpha bar]],
-   *     guidance, clip, prediction, adapters {places [P*D], adapterOf [P]} or null
+   *     sampler, guidance, clip, prediction, adapters {places [P*D], adapterOf [P]} or null
    */
   constructor(denoiser, tower, settings) {
     Object.assign(this, { denoiser, tower, settings });
@@ -30,7 +30,7 @@ export class Sampler {
     const values = new Float32Array(size);
     if (given) for (let i = 0; i < size; i++) if (given.known[i]) values[i] = (given.values[i] - mean[i % WIDTH]) / std[i % WIDTH];
     const text = this.tower.encode(prompt), opened = this.opened(text);
-    let x = start.slice();
+    let x = start.slice(), before = null;
     for (let i = 0; i < schedule.length; i++) {
       const [step, alphaBar] = schedule[i], next = i + 1 < schedule.length ? schedule[i + 1][1] : 1;
       const a = Math.sqrt(alphaBar), s = Math.sqrt(1 - alphaBar);
@@ -40,7 +40,9 @@ export class Sampler {
         for (let j = 0; j < size; j++) if (given.known[j]) input[j] = shown[j] ? values[j] : a * values[j] + s * start[j];
       }
       const output = await this.guided(input, step, text, nullText, tags, shown, guidance, opened);
-      x = this.follow(x, output, a, s, next, given?.known, values);
+      const clean = this.cleaned(x, output, a, s, given?.known, values), here = { clean, lambda: Math.log(a / s) };
+      x = follow(x, this.settings.sampler === "ddim" ? clean : extrapolated(here, before, next), a, s, next);
+      before = here;
     }
     const features = new Float32Array(size);
     for (let i = 0; i < size; i++) features[i] = given?.known[i] ? given.values[i] : x[i] * std[i % WIDTH] + mean[i % WIDTH];
@@ -68,16 +70,28 @@ export class Sampler {
     return own.map((value, i) => none[i] + guidance * (value - none[i]));
   }
 
-  /** One step of DDIM (Song et al. 2021, eq. 12, eta 0) to the next alpha bar. */
-  follow(x, output, a, s, next, known, values) {
-    const { clip, prediction } = this.settings, direction = Math.sqrt(1 - next), signal = Math.sqrt(next);
+  /** x_0 as predicted, within its limit; known entries as they are. */
+  cleaned(x, output, a, s, known, values) {
+    const { clip, prediction } = this.settings;
     return x.map((value, i) => {
       let clean = output[i];
       if (known?.[i]) clean = values[i];
       else if (prediction === "epsilon") clean = (value - s * output[i]) / a;
       else if (prediction === "v") clean = a * value - s * output[i];
-      if (clip !== null) clean = Math.min(Math.max(clean, -clip), clip);
-      return signal * clean + (direction * (value - a * clean)) / s;
+      return clip === null ? clean : Math.min(Math.max(clean, -clip), clip);
     });
   }
+}
+
+/** x_0 of DPM-Solver++(2M) from this step and the one before, on the way to an alpha bar (Lu et al. 2022b, algorithm 2). */
+function extrapolated({ clean, lambda }, before, next) {
+  if (!before || next === 1) return clean;
+  const share = (0.5 * (0.5 * Math.log(next / (1 - next)) - lambda)) / (lambda - before.lambda);
+  return clean.map((value, i) => value + share * (value - before.clean[i]));
+}
+
+/** To the next alpha bar along the line through x and x_0 (Song et al. 2021, eq. 12, eta 0). */
+function follow(x, clean, a, s, next) {
+  const direction = Math.sqrt(1 - next), signal = Math.sqrt(next);
+  return x.map((value, i) => signal * clean[i] + (direction * (value - a * clean[i])) / s);
 }

@@ -8,22 +8,29 @@ export class Client {
   count = 0;
   workers = [];
 
-  /** @param {string} script the page's own @param {object} settings @param {object} parts */
-  static async open(script, settings, parts) {
+  /**
+   * @param {string} script the page's own
+   * @param {object} settings
+   * @param {Promise<object>} parts still being unpacked
+   * @param {string[]} texts that will be asked for first
+   */
+  static async open(script, settings, parts, texts) {
     const client = new Client(), address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    Object.assign(client, { address, settings, parts });
+    Object.assign(client, { address, settings, parts, texts });
     client.opened = client.start();
     await client.opened;
     return client;
   }
 
   async start() {
-    const { settings, parts } = this;
-    let worker = null;
+    const { settings, texts } = this;
+    let worker = null, parts = null;
     try {
       worker = this.worker = this.begin();
       worker.onmessage = ({ data }) => this.heard(data);
       const failed = new Promise((_, reject) => { worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
+      this.send("prepare", { settings, texts }).catch(() => null); // while the parts are unpacked
+      parts = await Promise.race([this.parts, failed]);
       const opened = Promise.race([this.send("open", { settings, parts }), failed]);
       const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
       await opened;
@@ -34,7 +41,7 @@ export class Client {
       worker?.terminate();
       this.worker = null;
       this.answer = handler();
-      await this.send("open", { settings, parts });
+      await this.send("open", { settings, parts: parts ?? await this.parts });
     }
   }
 
@@ -62,7 +69,7 @@ export class Client {
     await new Promise((resolve, reject) => {
       worker.onmessage = ({ data }) => (data.error ? reject(new Error(data.error)) : resolve());
       worker.onerror = reject;
-      worker.postMessage({ id: 0, call: "help", parts: { wasm, graph, adapted, weights }, port: port2 }, [port2]);
+      worker.postMessage({ id: 0, call: "help", parts: { wasm, graph, adapted, weights }, names: this.settings.weights, port: port2 }, [port2]);
     });
     return port1;
   }

@@ -35,18 +35,17 @@ class Page {
     this.selected = 0;
     this.time = 0;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
+    const script = $("script").textContent, parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
+    const opened = Client.open(script, this.settings, parts, texts); // its workers begin beside all that follows
     this.openStage();
     this.timeline = new Timeline($("timeline"), this);
     this.bind();
     this.changed();
-    const script = $("script").textContent;
     this.tell("Loading the model …");
     this.timings = { page: performance.now() };
-    const parts = await readParts(document);
-    this.timings.parts = performance.now();
-    this.rest = { glb: parts.glb, vrma: parts.vrma };
-    this.licences = parts.licences;
-    this.client = await Client.open(script, this.settings, parts);
+    this.client = await opened;
+    const { glb, vrma, licences } = await parts;
+    Object.assign(this, { rest: { glb, vrma }, licences });
     this.timings.loaded = performance.now();
     document.body.classList.add("ready");
     $("make").disabled = false;

@@ -1,6 +1,7 @@
-// The parts of the model that stand in the page as base64 of gzip.
+// The parts of the model that stand in the page as base64 of gzip, behind the script that reads them.
 
 export async function readParts(document) {
+  if (document.readyState === "loading") await new Promise((resolve) => document.addEventListener("DOMContentLoaded", resolve));
   const elements = [...document.querySelectorAll('script[id^="part-"]')];
   const entries = await Promise.all(elements.map(async (element) => {
     const bytes = decode(element.textContent);

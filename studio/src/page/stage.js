@@ -33,6 +33,7 @@ export class Stage {
     this.addRoom();
     this.paint();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
+    canvas.addEventListener("webglcontextrestored", () => { this.stale = true; });
     this.resetView();
     this.time = 0;
   }
@@ -65,6 +66,7 @@ export class Stage {
     const style = getComputedStyle(this.canvas), colour = (name) => style.getPropertyValue(name).trim();
     this.scene.fog.color.copy(this.scene.background.set(colour("--room")));
     this.grid.material.color.set(colour("--grid"));
+    this.stale = true;
   }
 
   /** Show motions side by side, one of them chosen. */
@@ -118,6 +120,7 @@ export class Stage {
       }
     });
     this.ring.visible = this.bodies.length > 1;
+    this.stale = true;
   }
 
   showPath(points) {
@@ -125,6 +128,7 @@ export class Stage {
     this.line.geometry.dispose();
     this.line.geometry = new BufferGeometry().setFromPoints(places);
     this.line.visible = places.length > 1;
+    this.stale = true;
   }
 
   /** Where on the floor a pointer is, [x, z] without the chosen take's offset; null beyond it. */
@@ -161,6 +165,7 @@ export class Stage {
       this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).setLength(Math.max(4.1, away)));
     }
     this.controls.update();
+    this.stale = true;
   }
 
   /** The camera about what it looks at: by radians aside and up, and that many times as far; the controls keep its limits. */
@@ -170,7 +175,7 @@ export class Stage {
     this.camera.position.setFromSpherical(way).add(target);
   }
 
-  /** Draw; the camera goes along with the chosen body. */
+  /** Draw what has changed; the camera goes along with the chosen body. Without a graphics card a picture costs what a prediction does. */
   draw(follow, step) {
     if (follow && this.focus) {
       const aim = this.focus.clone();
@@ -179,10 +184,11 @@ export class Stage {
       this.controls.target.add(way);
       this.camera.position.add(way);
     }
+    if (!this.controls.update() && !this.stale) return;
+    this.stale = false;
     const { x, z } = this.controls.target;
     this.sun.target.position.set(x, 0, z);
     this.sun.position.set(x + 2.5, 6, z + 3);
-    this.controls.update();
     this.renderer.render(this.scene, this.camera);
     this.keepPace(step);
   }
@@ -204,6 +210,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
+    this.stale = true;
   }
 }
 

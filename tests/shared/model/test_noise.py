@@ -23,7 +23,7 @@ from src.shared.model.noise import (
 )
 
 SCHEDULES = ("linear", "cosine", "sqrt")
-SPACINGS = ("leading", "linspace", "trailing")
+SPACINGS = ("halved", "leading", "linspace", "trailing")
 
 
 @pytest.mark.parametrize("schedule", SCHEDULES)
@@ -79,7 +79,13 @@ def test_timesteps_fall_strictly_within_range(total: int, share: float, spacing:
         assert steps[0] == total - 1
 
 
-@pytest.mark.parametrize("spacing", SPACINGS)
+def test_halved_is_trailing_with_one_step_more_at_the_start() -> None:
+    assert sampling_timesteps(1000, 6, "halved") == (999, 899, 799, 599, 399, 199)
+    assert [sampling_timesteps(1000, count, "halved") for count in (1, 2)] == [(999,), (999, 499)]
+    assert sampling_timesteps(8, 8, "halved") == sampling_timesteps(8, 8, "trailing")
+
+
+@pytest.mark.parametrize("spacing", SPACINGS[1:])
 @pytest.mark.parametrize(("total", "count"), [(1000, 50), (1000, 7), (100, 20), (100, 30)])
 def test_timesteps_equal_diffusers(spacing: str, total: int, count: int) -> None:
     oracle = DDIMScheduler(num_train_timesteps=total, timestep_spacing=spacing)

@@ -196,6 +196,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         {TEXT_GRAPH: text, **networks},
         TextOnnxCard,
         card,
+        also_ready=tuple(networks),
         process=process_info(generator.diffusion, config.generation.guidance_scale),
         mean=tuple(map(tuple, generator.mean.tolist())),
         std=tuple(map(tuple, generator.std.tolist())),
