@@ -492,6 +492,7 @@ def test_a_way_round_is_told_from_a_corner(text: str, told: bool):
         ("toma carrerilla y luego salta", ["corre", "salta"]),
         ("il prend son élan puis saute", ["il court", "saute"]),
         ("Sie nimmt Anlauf, danach springt sie", ["Sie rennt los", "springt sie"]),
+        ("Winke, danach setz dich hin", ["Winke", "setz dich"]),
         ("助走をつけてからジャンプする", ["走って", "ジャンプする"]),
         ("先助跑，然后跳", ["跑", "跳"]),
         ("Kannst du mir jemanden machen, der rennt?", ["der rennt"]),
