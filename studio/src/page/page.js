@@ -138,7 +138,6 @@ class Page {
     if (undone === "y" || (undone === "z" && event.shiftKey)) { event.preventDefault(); this.history.redo(); }
     else if (undone === "z") { event.preventDefault(); this.history.undo(); }
     else if (event.key === " " && !on("input, textarea, select, button, summary, dialog")) { event.preventDefault(); this.setPlaying(!this.playing); }
-    else if (event.key === "Escape" && this.drawing) this.stopDrawing();
     else if (event.key === "Escape" && !event.isComposing && !on("dialog")) this.stop();
   }
 
@@ -291,20 +290,22 @@ class Page {
     this.making = making;
     document.body.classList.toggle("making", making);
     $("make").setAttribute("aria-busy", String(making));
-    this.offerStop(making);
+    this.offerStop();
     this.showButtons();
   }
 
-  offerStop(offered) {
-    if (!offered && document.activeElement === $("stop")) $("make").focus(); // the button goes
+  offerStop() {
+    const offered = this.drawing || (this.making && !this.stopped);
+    if (!offered && document.activeElement === $("stop")) $("make").focus({ preventScroll: true }); // the button goes
     $("stop").hidden = !offered;
   }
 
   stop() {
+    if (this.drawing) { this.stopDrawing(); this.tell("Nothing is drawn."); return; }
     if (!this.making || this.stopped) return;
     this.stopped = true;
     this.again = false;
-    this.offerStop(false);
+    this.offerStop();
     this.halt();
   }
 
@@ -418,24 +419,31 @@ class Page {
     const canvas = $("stage");
     let pressed = null;
     canvas.addEventListener("pointerdown", (event) => {
-      pressed = [event.clientX, event.clientY];
+      if (!event.isPrimary) return; // a palm, or the second finger of a pinch
+      pressed = event;
       if (!this.drawing) return;
       canvas.setPointerCapture(event.pointerId);
       const place = this.stage.floorAt(event);
       this.line = place ? [place] : [];
     });
     canvas.addEventListener("pointermove", (event) => {
-      if (!this.drawing || !this.line?.length) return;
+      if (!this.drawing || !this.line?.length || event.pointerId !== pressed?.pointerId) return;
       const place = this.stage.floorAt(event), last = this.line[this.line.length - 1];
       if (place && Math.hypot(place[0] - last[0], place[1] - last[1]) > 0.12) { this.line.push(place); this.stage.showPath(this.line); }
     });
+    canvas.addEventListener("pointercancel", (event) => {
+      if (event.pointerId !== pressed?.pointerId) return;
+      pressed = this.line = null;
+      this.stage?.showPath(this.scene.path);
+    });
     canvas.addEventListener("pointerup", (event) => {
+      if (event.pointerId !== pressed?.pointerId) return;
       if (this.drawing && this.line?.length) {
         const line = this.line;
         this.stopDrawing();
         if (line.length > 2) this.takePath(line);
         else this.tell("Draw a longer line on the floor.", "warning");
-      } else if (pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 5) {
+      } else if (Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) < 5) {
         const take = this.stage?.takeAt(event);
         if (take !== null && take !== undefined) this.choose(take);
       }
@@ -457,7 +465,9 @@ class Page {
       this.stage.controls.enabled = false;
       this.stage.resetView(true);
       document.body.classList.add("drawing");
-      this.tell("Draw the way on the floor with one stroke. Escape stops.");
+      this.tell("Draw the way on the floor with one stroke.");
+      this.offerStop();
+      $("stage").scrollIntoView({ block: "nearest" });
       return;
     }
     this.stopDrawing();
@@ -483,6 +493,7 @@ class Page {
     this.stage.resetView();
     this.stage.showPath(this.scene.path);
     document.body.classList.remove("drawing");
+    this.offerStop();
     this.setPlaying(this.playsAfter);
     this.changed();
   }

@@ -1,4 +1,5 @@
-// The sentences over time: drag one to move it, its end to stretch it; keys do the same.
+// The sentences over time: drag one to move it, its end to stretch it; keys do the same. Where they
+// are wider than their place, they scroll in it, and a finger moves the one that it has selected.
 
 import { LIMITS, spanOf } from "./scene.js";
 
@@ -13,6 +14,7 @@ export class Timeline {
     this.head = document.createElement("div");
     this.head.className = "playhead";
     root.append(this.list, this.head);
+    new ResizeObserver(() => this.fit()).observe(root);
   }
 
   show() {
@@ -20,6 +22,17 @@ export class Timeline {
     const focused = [...this.list.children].findIndex((item) => item.contains(document.activeElement));
     this.list.replaceChildren(...blocks.map((block, index) => this.item(block, index, selected)));
     if (focused >= 0) this.focus(Math.min(focused, blocks.length - 1));
+    this.fit();
+    if (selected !== this.selected) this.reveal(this.list.children[selected]);
+    this.selected = selected;
+  }
+
+  fit() {
+    this.root.classList.toggle("long", this.list.scrollWidth > this.root.clientWidth);
+  }
+
+  reveal({ offsetLeft, offsetWidth }) {
+    this.root.scrollLeft = Math.min(Math.max(this.root.scrollLeft, offsetLeft + offsetWidth - this.root.clientWidth), offsetLeft);
   }
 
   focus(index) {
@@ -65,7 +78,7 @@ export class Timeline {
 
   /** To another place: where the pointer is when it is let go. */
   drag(event, index, button) {
-    if (event.button) return;
+    if (event.button || !event.isPrimary) return;
     const from = event.clientX;
     let moved = false;
     const move = ({ clientX }) => {
@@ -80,20 +93,23 @@ export class Timeline {
       if (to === index) this.show();
       else this.move(index, to);
     };
-    const stop = follow(move, up, () => this.show());
+    const stop = follow(event, move, up, () => this.show());
   }
 
   stretch(event, index) {
+    if (event.button || !event.isPrimary) return;
     event.preventDefault();
     const from = event.clientX, { seconds } = this.page.scene.blocks[index];
-    const perPixel = spanOf(this.page.scene.blocks) / this.list.clientWidth;
+    const perPixel = spanOf(this.page.scene.blocks) / this.list.scrollWidth;
+    const rest = () => { stop(); this.page.history.rest(); };
     const stop = follow(
+      event,
       ({ clientX }) => {
         const wanted = Math.min(Math.max(seconds + (clientX - from) * perPixel, LIMITS.seconds[0]), LIMITS.seconds[1]);
         this.page.stretchBlock(index, wanted, `stretch${index}`);
       },
-      () => { stop(); this.page.history.rest(); },
-      () => {},
+      rest,
+      rest,
     );
   }
 
@@ -113,16 +129,12 @@ export class Timeline {
   }
 }
 
-/** Listen until `up`; the function that stops it. */
-function follow(move, up, cancel) {
-  const stop = () => {
-    removeEventListener("pointermove", move);
-    removeEventListener("pointerup", up);
-    removeEventListener("pointercancel", cancelled);
-  };
-  const cancelled = () => { stop(); cancel(); };
-  addEventListener("pointermove", move);
-  addEventListener("pointerup", up);
-  addEventListener("pointercancel", cancelled);
+/** Listen to the pointer that was pressed until it is let go or taken away; the function that stops it. */
+function follow({ pointerId }, move, up, cancel) {
+  const stopped = new AbortController(), stop = () => stopped.abort();
+  const on = (name, heard) => addEventListener(name, (event) => { if (event.pointerId === pointerId) heard(event); }, { signal: stopped.signal });
+  on("pointermove", move);
+  on("pointerup", up);
+  on("pointercancel", () => { stop(); cancel(); });
   return stop;
 }

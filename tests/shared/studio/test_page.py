@@ -5,6 +5,7 @@ import json
 import re
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -535,3 +536,99 @@ def test_edges_and_words_can_be_seen(scheme: str, browser: Browser) -> None:
     dark = browser.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(20, 23, 28)"
     assert dark == (scheme == "dark")
     browser.call("Emulation.setEmulatedMedia", features=[])
+
+
+@contextmanager
+def phone(browser: Browser, width: int = 360, height: int = 640) -> Iterator[None]:
+    """A small screen that is touched."""
+    size = {"width": width, "height": height, "deviceScaleFactor": 2, "mobile": True}
+    browser.call("Emulation.setDeviceMetricsOverride", **size)
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+    yield
+    browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
+def middle(browser: Browser, selector: str) -> tuple[float, float]:
+    box = f"document.querySelector({json.dumps(selector)}).getBoundingClientRect()"
+    place = browser.evaluate(
+        f"(({{ x, y, width, height }}) => [x + width / 2, y + height / 2])({box})"
+    )
+    return place[0], place[1]
+
+
+def touched(browser: Browser, *states: list[tuple[float, float]], end: str = "touchEnd") -> None:
+    """Where the fingers are, one state after another, and how that ends."""
+    for index, state in enumerate(states):
+        points = [{"x": x, "y": y, "id": finger} for finger, (x, y) in enumerate(state)]
+        kind = "touchMove" if index else "touchStart"
+        browser.call("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+    browser.call("Input.dispatchTouchEvent", type=end, touchPoints=[])
+
+
+SMALL = """["button", "select", "input:not([type=radio])", "summary", ".handle"]
+    .flatMap((selector) => [...document.querySelectorAll(selector)])
+    .map((element) => (element.closest('.tools label') ?? element).getBoundingClientRect())
+    .filter(({ width, height }) => width && Math.min(width, height) < 40).length"""
+
+
+@BROWSER
+@pytest.mark.parametrize("size", [(360, 640), (390, 844)])
+def test_a_phone_shows_a_long_timeline_in_its_width(
+    size: tuple[int, int], browser: Browser
+) -> None:
+    with phone(browser, *size):
+        with_blocks(browser, *((str(index), 3) for index in range(24)))
+        browser.evaluate("studio.select(0)")
+        assert browser.evaluate("document.documentElement.scrollWidth") == size[0]
+        assert browser.evaluate(SMALL) == 0
+        scrolled = "document.getElementById('timeline').scrollLeft"
+        browser.evaluate(f"document.getElementById('timeline').scrollIntoView(); {scrolled} = 0")
+        x, y = middle(browser, "li:nth-child(2) .handle")
+        touched(browser, *([(x + 5 * step, y)] for step in range(9)))
+        assert browser.evaluate("studio.scene.blocks[1].seconds") > 3.5
+        x, y = middle(browser, "li button")
+        touched(browser, *([(x + 15 * step, y)] for step in range(9)))  # the selected one
+        texts = "studio.scene.blocks.slice(0, 3).map(({ text }) => text).join('')"
+        assert browser.evaluate(texts) == "102"
+        browser.evaluate("studio.select(20)")
+        assert 0 < middle(browser, "#timeline .selected")[0] < size[0]
+        before, changes = browser.evaluate(scrolled), browser.evaluate("studio.history.past.length")
+        x, y = middle(browser, "#timeline li:nth-child(19)")
+        touched(browser, *([(x + 15 * step, y)] for step in range(12)))
+        browser.wait(f"{scrolled} < {before - 50}")
+        assert browser.evaluate("studio.history.past.length") == changes
+
+
+@BROWSER
+def test_a_second_finger_leads_nothing(browser: Browser) -> None:
+    with phone(browser):
+        with_blocks(browser, ("a", 3), ("b", 3))
+        browser.evaluate("document.getElementById('timeline').scrollIntoView()")
+        changes = browser.evaluate("studio.history.past.length")
+        x, y = middle(browser, "li button")
+        handle = middle(browser, ".handle")
+        for second in ((x + 60, y), handle):
+            moves = [(second[0] + 9 * step, y) for step in range(9)]
+            touched(browser, [(x, y)], *([(x, y), move] for move in moves))
+            assert browser.evaluate("studio.history.past.length") == changes
+        touched(browser, [handle], *([handle, (x - 9 * step, y)] for step in range(9)))
+        assert browser.evaluate("studio.scene.blocks[0].seconds") == 3
+
+        floor = "floorAt: ({ clientX, clientY }) => [clientX / 100, clientY / 100], controls: {}"
+        rest = "get: (own, name) => own[name] ?? (() => null)"
+        browser.evaluate(f"studio.stage = new Proxy({{ {floor} }}, {{ {rest} }}); 0")
+        browser.evaluate(
+            "document.getElementById('remove').scrollIntoView(); studio.choosePath('draw')"
+        )
+        assert browser.evaluate("document.getElementById('stage').getBoundingClientRect().y") >= 0
+        line = [(60.0, 40.0 + 20 * step) for step in range(5)]
+        palm = [(200.0, 50.0 + 20 * step) for step in range(5)]
+        touched(browser, *([point] for point in line), end="touchCancel")
+        assert browser.evaluate("studio.drawing") and not browser.evaluate("studio.scene.path")
+        touched(browser, line[:1], *map(list, zip(line, palm, strict=True)))
+        assert {x for x, _ in browser.evaluate("studio.scene.path")} == {0.6}
+        browser.wait("!studio.making", 60)
+        browser.evaluate("studio.choosePath('draw'); document.getElementById('stop').click()")
+        assert not browser.evaluate("studio.drawing")
+        browser.evaluate("studio.stage = undefined; studio.history.change({ path: null })")
