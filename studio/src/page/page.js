@@ -112,6 +112,7 @@ class Page {
     $("save-film").addEventListener("click", () => this.film());
     for (const [name, label] of Object.entries(PATHS)) $("path").add(new Option(label.label, name));
     $("path").querySelector("[value=draw]").disabled = !this.stage;
+    $("path").querySelector("[value=clip]").hidden = true;
     $("path").addEventListener("change", () => this.choosePath($("path").value));
     for (const { language, prompt } of examples(this.settings.languages)) $("examples").add(new Option(`${language}: ${prompt}`, prompt));
     $("examples").addEventListener("change", () => {
@@ -122,6 +123,7 @@ class Page {
     addEventListener("hashchange", () => {
       const scene = fromLink(location.hash);
       if (scene) { this.history.change(scene); this.make(); }
+      else this.changed(); // the address says again what there is
     });
     this.bindStage();
     this.bindClips();
@@ -209,12 +211,13 @@ class Page {
     $("redo").disabled = !this.history.future.length;
     const way = path ? (Object.keys(PATHS).find((name) => JSON.stringify(PATHS[name].points) === JSON.stringify(path)) ?? "drawn") : "none";
     $("path").querySelector("[value=drawn]").disabled = way !== "drawn";
-    if (!this.drawing) $("path").value = way;
+    $("path").disabled = Boolean(this.clip);
+    if (!this.drawing) $("path").value = this.clip ? "clip" : way;
     this.timeline?.show();
     clearTimeout(this.linkTimer); // browsers count how often an address changes
     this.linkTimer = setTimeout(() => history.replaceState(null, "", this.link()), 300);
     this.showMotions(chosen);
-    this.stage?.showPath(path);
+    this.stage?.showPath(this.clip ? null : path);
     this.warnSoon();
   }
 
@@ -314,23 +317,25 @@ class Page {
     const { takes, chosen } = this.scene;
     const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take)));
     const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
-    const stale = Boolean(this.shown) && !found.length;
+    const stale = Boolean(this.shown) && !found.length && this.shown[0] !== this.clip?.motion;
     document.body.classList.toggle("stale", stale);
     if (stale && !this.making && !this.drawing) this.tell(CHANGED);
-    if (found.length) {
-      const before = this.shown;
-      this.shown = found;
-      this.choice = Math.min(chosen, found.length - 1);
-      this.stage?.show(found, this.choice);
-      this.stage?.showPath(this.scene.path);
-      $("stage").setAttribute("aria-label", `${found.length > 1 ? `${found.length} bodies; take ${this.choice + 1} is chosen` : "A body"}: ${found[this.choice].text}`);
-      if (!before) this.setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
-      if (!before || before.length !== found.length) this.stage?.resetView();
-      $("scrub").max = this.seconds;
-    }
+    if (found.length) this.putOnStage(found, Math.min(chosen, found.length - 1));
     this.seek(this.time > this.seconds ? 0 : this.time);
     this.showTakes(found.length);
     this.showButtons();
+  }
+
+  putOnStage(motions, choice) {
+    const before = this.shown;
+    this.shown = motions;
+    this.choice = choice;
+    this.stage?.show(motions, choice);
+    this.stage?.showPath(this.clip ? null : this.scene.path);
+    $("stage").setAttribute("aria-label", `${motions.length > 1 ? `${motions.length} bodies; take ${choice + 1} is chosen` : "A body"}: ${motions[choice].text || this.clip?.name}`);
+    if (!before) this.setPlaying(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+    if (before?.length !== motions.length) this.stage?.resetView();
+    $("scrub").max = this.seconds;
   }
 
   /** What can be done with a motion, where there is one. */
@@ -517,7 +522,7 @@ class Page {
         this.showMotions();
       });
     $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
-    $("close-clip").addEventListener("click", () => { this.clip = null; this.showClip(); this.showMotions(); });
+    $("close-clip").addEventListener("click", () => { this.clip = null; this.tell("The clip is closed."); this.showClip(); this.changed(); });
     for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
     this.showClip();
   }
@@ -527,20 +532,24 @@ class Page {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
       const bytes = await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); });
       this.takeClip(readClip(file.name, new Uint8Array(bytes), this.settings.profiles), file.name);
-      this.tell(`${file.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.`);
+      this.seek(0);
+      this.stage?.resetView(); // it may stand elsewhere
     } catch (error) {
       this.tell(`${file.name}: ${error.message}`, "error");
     }
   }
 
   takeClip(motion, name) {
+    this.stopDrawing();
     this.clips = (this.clips ?? 0) + 1;
     this.clip = { motion, name, number: this.clips };
     const seconds = motion.frames / FPS;
     $("until").value = Math.min(seconds, 2).toFixed(1);
     $("from").value = Math.min(1, seconds / 3).toFixed(1);
+    this.putOnStage([motion], 0);
     this.showClip();
-    this.showMotions();
+    this.changed();
+    this.tell(`${name}: ${seconds.toFixed(2)} seconds. Choose what is to be done with it, then make.`);
   }
 
   clipChoice() {

@@ -26,4 +26,5 @@ export const PATHS = {
   circle: { label: "a circle, 3 m across", points: arc(1.5, 0, 2 * Math.PI, 25) },
   zigzag: { label: "a zigzag", points: [[0, 0], [0.8, 1.2], [-0.8, 2.4], [0, 3.6]] },
   drawn: { label: "as drawn" },
+  clip: { label: "none with a clip" },
 };

@@ -632,3 +632,31 @@ def test_a_second_finger_leads_nothing(browser: Browser) -> None:
         browser.evaluate("studio.choosePath('draw'); document.getElementById('stop').click()")
         assert not browser.evaluate("studio.drawing")
         browser.evaluate("studio.stage = undefined; studio.history.change({ path: null })")
+
+
+@BROWSER
+def test_an_opened_clip_is_shown_and_has_no_way_on_the_floor(
+    browser: Browser, tmp_path: Path
+) -> None:
+    made(browser, "{ blocks: [{ text: 'a person waves', seconds: 2 }], seed: 0 }")
+    turns = np.zeros((40, 22, 4), np.float32)
+    turns[..., 0] = 1
+    still = np.tile(np.array([0, 0.95, 3], np.float32), (40, 1))
+    clip = Motion(turns, still, np.zeros((40, 2), np.float32), 30.0)
+    data = write_bvh(clip, tmp_path / "still.bvh").read_bytes()
+    browser.evaluate("studio.choosePath('straight')")
+    browser.wait("!studio.making", 60)
+    assert opened(browser, "still.bvh", data).startswith("still.bvh: 1.33 seconds")
+    shown = "[studio.shown[0].frames, document.getElementById('scrub').max, studio.time]"
+    assert browser.evaluate(shown) == [40, "1.3", 0]
+    stale = "document.body.classList.contains('stale')"
+    assert not browser.evaluate(stale)
+    path = "document.getElementById('path')"
+    assert browser.evaluate(f"[{path}.value, {path}.disabled]") == ["clip", True]
+    browser.evaluate("document.getElementById('close-clip').click()")
+    assert browser.evaluate(f"[{path}.value, {path}.disabled]") == ["straight", False]
+    assert browser.evaluate("studio.shown[0].text") == "a person waves"
+    with_blocks(browser, ("a person waves", 2))
+    opened(browser, "still.bvh", data)
+    browser.evaluate("document.getElementById('close-clip').click()")
+    assert text_of(browser, "status").startswith("Changed") == browser.evaluate(stale)
