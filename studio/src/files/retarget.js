@@ -10,7 +10,7 @@ import { percentile } from "../body/curves.js";
 import { FEET, FPS, INDEX, JOINTS, LEG_LENGTH, pose, REST_FOOT_HEIGHT, SKELETON } from "../body/skeleton.js";
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1], STANDING = 0.7, PELVIS = [0.45, 0.8], SAMPLES = 200, MAX_FRAMES = 18000;
-const NEAR_RATE = 0.01, SAME_RATE = 1e-3, SAME_BONES = 1e-4, CALIBRATION_JUMP = 0.15, SHORT_LEGS = 1.2;
+const NEAR_RATE = 0.01, SAME_RATE = 1e-3, ROUNDED = 2e-5, SAME_BONES = 1e-4, CALIBRATION_JUMP = 0.15, SHORT_LEGS = 1.2;
 const AIM = {
   spine1: "spine2", neck: "head", l_collar: "l_shoulder", r_collar: "r_shoulder", l_shoulder: "l_elbow",
   r_shoulder: "r_elbow", l_elbow: "l_wrist", r_elbow: "r_wrist", l_hip: "l_knee", r_hip: "r_knee",
@@ -35,7 +35,7 @@ export function retarget(clip, profiles) {
     throw new Error("Its rest pose is no standing body. Bring it onto our skeleton first: motion-tools convert CLIP a.npz, then a.npz a.bvh.");
   const ours = isOurs(clip, joints), legs = legLength(clip, joints);
   if (!(legs > 1e-6)) throw new Error("Its legs have no length.");
-  const turn = ours ? IDENTITY : upright(detectUp(clip, joints, rest));
+  const turn = ours ? IDENTITY : upright(clip.up ?? detectUp(clip, joints, rest));
   const size = ours ? norm(SKELETON.offsets[INDEX.l_knee]) / norm(clip.offsets[joints.l_knee]) : LEG_LENGTH / legs;
   let motion = carriedOver(clip, joints, corrections(clip, joints, axes, rest), turn, size);
   if (![...motion.quaternions, ...motion.root].every(Number.isFinite)) throw new Error("It holds numbers that are none.");
@@ -256,10 +256,11 @@ function withoutCalibration(motion) {
 
 function resampled(motion) {
   if (Math.abs(FPS / motion.fps - 1) < SAME_RATE) return { ...motion, fps: FPS };
-  const last = motion.frames - 1, frames = Math.floor((last / motion.fps) * FPS + 1e-6) + 1;
+  const last = motion.frames - 1, steps = (last / motion.fps) * FPS; // but for how many digits a file gives its frame time
+  const frames = Math.floor(steps + Math.min(ROUNDED * steps, 0.5) + 1e-6) + 1;
   const quaternions = new Float32Array(frames * JOINTS * 4), root = new Float32Array(frames * 3);
   for (let t = 0; t < frames; t++) {
-    const at = (t * motion.fps) / FPS, first = Math.min(Math.floor(at), last - 1), share = at - first;
+    const at = Math.min((t * motion.fps) / FPS, last), first = Math.min(Math.floor(at), last - 1), share = at - first;
     for (let joint = 0; joint < JOINTS; joint++) {
       const [p, q] = [(first * JOINTS + joint) * 4, ((first + 1) * JOINTS + joint) * 4];
       quaternions.set(slerp(Array.from(motion.quaternions.subarray(p, p + 4)), Array.from(motion.quaternions.subarray(q, q + 4)), share), (t * JOINTS + joint) * 4);

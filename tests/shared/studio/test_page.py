@@ -234,6 +234,15 @@ def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
     browser.evaluate("document.getElementById('close-clip').click()")
 
 
+def read_in_page(browser: Browser, path: Path) -> Motion:
+    """A clip as the page reads it."""
+    said = opened(browser, path.name, path.read_bytes())
+    assert "seconds" in said, said
+    root = np.reshape(browser.evaluate("[...studio.clip.motion.root]"), (-1, 3))
+    turns = np.reshape(browser.evaluate("[...studio.clip.motion.quaternions]"), (-1, 22, 4))
+    return Motion(turns, root.astype(np.float32), np.zeros((len(root), 2), np.float32), 30.0)
+
+
 @BROWSER
 def test_a_clip_of_another_skeleton_is_brought_onto_ours(browser: Browser, tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
@@ -248,13 +257,74 @@ def test_a_clip_of_another_skeleton_is_brought_onto_ours(browser: Browser, tmp_p
     clip = replace(clip, rig=rig, translations=clip.translations * longer)
     for kind, write in (("bvh", write_bvh_clip), ("glb", write_glb_clip)):
         path = write(clip, tmp_path / f"other.{kind}")
-        assert "seconds" in opened(browser, path.name, path.read_bytes())
-        wanted = read_motion(path)
-        root = np.reshape(browser.evaluate("[...studio.clip.motion.root]"), (-1, 3))
-        turns = np.reshape(browser.evaluate("[...studio.clip.motion.quaternions]"), (-1, 22, 4))
-        read = replace(wanted, quaternions=turns, root_position=root.astype(np.float32))
-        assert_same(read, wanted)
+        assert_same(read_in_page(browser, path), read_motion(path))
     browser.evaluate("document.getElementById('close-clip').click()")
+
+
+@BROWSER
+def test_clips_of_any_rate_begin_and_lie_as_on_the_command_line(
+    browser: Browser, tmp_path: Path
+) -> None:
+    quarter = np.zeros((365, 22, 4), np.float32)
+    quarter[..., 0] = np.cos(np.linspace(0, 0.4, 365))[:, None]
+    quarter[..., 1] = np.sin(np.linspace(0, 0.4, 365))[:, None]
+    root = np.tile(np.array([0, 0.95, 0], np.float32), (365, 1))
+    motion = Motion(quarter, root, np.zeros((365, 2), np.float32), 30.0)
+    bvh = tmp_path / "a.bvh"
+    text = write_bvh(motion, bvh).read_text()
+    bvh.write_text(re.sub("Frame Time: .*", "Frame Time: 0.0833333", text))
+    assert_same(read_in_page(browser, bvh), read_motion(bvh))
+
+    glb = write_glb(motion.frames(0, 40), tmp_path / "a.glb")
+    whole = GlbFile.read(glb)
+    node = {"name": "Armature", "children": [0]}
+    turned = node | {"rotation": [0.5**0.5, 0, 0, 0.5**0.5]}
+    matrix = [0, 0, -2, 0, 0, 2, 0, 0, 2, 0, 0, 0, 1, 2, 3, 1]
+    for rate, late, above in (
+        (30, 1, None),
+        (24, 0, None),
+        (29.97, -1, turned),
+        (120, 5, node | {"matrix": matrix}),
+    ):
+        file = GlbFile(json.loads(json.dumps(whole.document)), bytes(whole.data))
+        accessor = file.document["accessors"][
+            file.document["animations"][0]["samplers"][0]["input"]
+        ]
+        start = file.document["bufferViews"][accessor["bufferView"]]["byteOffset"]
+        times = (np.arange(40) / rate + late).astype("<f4").tobytes()
+        file.data[start : start + len(times)] = times
+        if above:
+            file.document["nodes"].append(above)
+            file.document["scenes"][0]["nodes"] = [len(file.document["nodes"]) - 1]
+        file.write(glb)
+        assert_same(read_in_page(browser, glb), read_motion(glb))
+    browser.evaluate("document.getElementById('close-clip').click()")
+
+
+@BROWSER
+def test_damaged_clips_are_refused_in_words(browser: Browser, tmp_path: Path) -> None:
+    head = BVH.format("pelvis")
+    for text, line in (
+        (head + "1 2 3\n", "says 1 frames, but holds 2"),
+        (head.replace("Frames: 1", "Frames: 1.5"), "no whole BVH"),
+        (head.replace("0 0 0\n", "0 0 1e39\n"), "no angle and no place"),
+    ):
+        assert line in opened(browser, "a.bvh", text.encode())
+    turns = np.zeros((2, 22, 4), np.float32)
+    turns[..., 0] = 1
+    still = Motion(turns, np.zeros((2, 3), np.float32), np.zeros((2, 2), np.float32), 30.0)
+    file = GlbFile.read(write_glb(still, tmp_path / "a.glb"))
+    nodes = file.document["nodes"]
+    for change, line in (
+        ({"nodes": [*nodes[:5], nodes[5] | {"children": [5]}, *nodes[6:]]}, "damaged"),
+        ({"nodes": [None, *nodes[1:]]}, "damaged"),
+        ({"nodes": "abc"}, "damaged"),
+        ({"accessors": []}, "damaged"),
+    ):
+        data = GlbFile(file.document | change, bytes(file.data)).to_bytes()
+        assert line in opened(browser, "a.glb", data)
+    cut = GlbFile(file.document, bytes(file.data[:100])).to_bytes()
+    assert "cut off" in opened(browser, "a.glb", cut)
 
 
 @BROWSER
