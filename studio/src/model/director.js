@@ -354,22 +354,31 @@ export class Director {
     } else {
       const ends = mode === "between" ? 2 : 1, frames = round(seconds * FPS) + ends * kept;
       if (motion.frames < kept) throw new Error(`The clip lasts ${(motion.frames / FPS).toFixed(2)} seconds, less than the ${clip.keep} to be kept.`);
-      const own = mode === "between" ? motion : lastFrames(motion, kept);
+      const own = mode === "between" ? motion : framesOfMotion(motion, motion.frames - kept, motion.frames);
       given = keepEnds(own, mode === "between" ? (clip.second ?? motion) : null, kept, frames, mode === "between" && !clip.second);
     }
     const more = text ? { miss: this.unseen(text) } : { guidance: 0 };
     const said = text && this.reader.whole(text, this.reader.clauses(text));
     const { features, known } = await fill(this.sampler, said || NO_TEXT, given, seed, { ...options, ...more });
-    return postProcess(features, this.settings.post, { known, text, place: given.place });
+    const made = postProcess(features, this.settings.post, { known, text, place: given.place });
+    return { ...made, missed: text ? this.unlessShown(text, made, given.constraint.known) : null };
+  }
+
+  /** A line if what was made of a clip does not show the action of its text. */
+  unlessShown(text, motion, known) {
+    const free = [...Array(motion.frames).keys()].filter((t) => cut(known, t, t + 1).includes(0));
+    const [{ text: first }, ...others] = this.reader.clauses(text);
+    if (!free.length || others.length || this.does(first, framesOfMotion(motion, free[0], free.at(-1) + 1))) return null;
+    return `“${text}”: what was made anew does not show “${this.nearest(first)}”, by how joints move; look at it, try a longer span, another seed, or a clip that stands.`;
   }
 }
 
-const lastFrames = (motion, frames) => ({
+const framesOfMotion = (motion, start, stop) => ({
   ...motion,
-  frames,
-  quaternions: motion.quaternions.slice((motion.frames - frames) * 88),
-  root: motion.root.slice((motion.frames - frames) * 3),
-  contacts: motion.contacts.slice((motion.frames - frames) * 2),
+  frames: stop - start,
+  quaternions: motion.quaternions.slice(start * 88, stop * 88),
+  root: motion.root.slice(start * 3, stop * 3),
+  contacts: motion.contacts.slice(start * 2, stop * 2),
 });
 
 /** A led turn whose place is known from where it begins to turn: who walked has come to a stop. */

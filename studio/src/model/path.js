@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { freeConstraint, streamFeatures } from "./stream.js";
 
 const SPACING = 0.01, ROUNDING = 0.12, NATURAL = 1.2, SLOWEST = 0.25, FASTEST = 4, MAX_SIDEWAYS = 2;
-const MAX_ALONG = 1.5, MAX_TURN = 2.5, FASTEST_TURN = 4, START_SPEED = 0.1, REST = 0.4, RUNNING = 2;
+const MAX_ALONG = 1.5, MAX_TURN = 2.5, FASTEST_TURN = 4, START_SPEED = 0.1, REST = 0.4, RUNNING = 2, LONGEST = 3000; // m, which no seconds of a scene reach
 const TURN_SMOOTHING = 0.12, STANDING = 0.25, SWAY_SMOOTHING = 0.4;
 
 const steps = (points) => points.slice(1).map((point, i) => [point[0] - points[i][0], point[1] - points[i][1]]);
@@ -16,6 +16,7 @@ export const lengthOf = (points) => steps(points).reduce((sum, step) => sum + Ma
 
 /** Points [T] and headings [T] of a path of [x, z] points. Throws where the seconds are too few. */
 export function timePath(drawn, { speed = NATURAL, seconds = null, facing = 0 }) {
+  if (lengthOf(drawn) > LONGEST) throw tooLong(lengthOf(drawn) / FASTEST);
   const line = rounded(drawn);
   let moments = momentsOf(line, Math.min(Math.max(speed, SLOWEST), FASTEST));
   const rest = speed > RUNNING ? 0 : seconds === null ? REST : Math.min(REST, seconds / 8);
@@ -41,7 +42,7 @@ function rounded(drawn) {
     const dense = at.map((share) => interpolate(share, known, points.map((p) => p[axis]))), end = dense.length - 1;
     const longer = [];
     for (let i = width; i > 0; i--) longer.push(2 * dense[0] - dense[i]);
-    longer.push(...dense);
+    for (const value of dense) longer.push(value);
     for (let i = 1; i <= width; i++) longer.push(2 * dense[end] - dense[end - i]);
     return gaussian(longer, (ROUNDING * end) / length, "reflect").slice(width, width + dense.length);
   });
@@ -66,11 +67,12 @@ function momentsOf(line, speed) {
 
 function inSeconds(line, moments, seconds) {
   const stretched = moments.map((at) => (at * seconds) / moments[moments.length - 1]);
-  const fastest = Math.max(...steps(line).map((step, i) => Math.hypot(...step) / (stretched[i + 1] - stretched[i])));
-  if (!(seconds > 0) || fastest > FASTEST)
-    throw new Error(`The path is too long for its time: give it ${((Math.max(seconds, 0) * fastest) / FASTEST || lengthOf(line) / FASTEST).toFixed(1)} seconds or more, or draw a shorter one.`);
+  const fastest = steps(line).reduce((most, step, i) => Math.max(most, Math.hypot(...step) / (stretched[i + 1] - stretched[i])), 0);
+  if (!(seconds > 0) || fastest > FASTEST) throw tooLong((Math.max(seconds, 0) * fastest) / FASTEST || lengthOf(line) / FASTEST);
   return stretched;
 }
+
+const tooLong = (seconds) => new Error(`The path is too long for its time: give it ${seconds.toFixed(1)} seconds or more, or draw a shorter one.`);
 
 function tangents(points) {
   const moves = steps(points);

@@ -159,6 +159,10 @@ def test_timelines_and_paths_are_those_of_the_command_line(
     walk = Timeline((Passage(texts[0], 90),))
     wanted = generator.timeline(walk, path=path, seconds=3.0, sampling=Sampling(seed=3)).motion
     assert_same(exported(browser, tmp_path), wanted)
+    far = [[50, 50], [-50, -50]] * 200
+    browser.evaluate(f"studio.history.change({{ path: {far} }})")
+    browser.evaluate("studio.make()")
+    assert "too long for its time" in text_of(browser, "status")
 
 
 def opened(browser: Browser, name: str, data: bytes) -> str:
@@ -224,8 +228,13 @@ def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
     ]
     for choice, given in cases:
         made(browser, scene, form(**choice))
-        wanted = generator.edit(given, "a person waves", sampling=Sampling(seed=1)).motion
-        assert_same(exported(browser, tmp_path), wanted)
+        wanted = generator.edit(given, "a person waves", sampling=Sampling(seed=1))
+        assert_same(exported(browser, tmp_path), wanted.motion)
+        assert browser.evaluate("!!studio.shown[0].missed") == bool(wanted.warning)
+    made(browser, scene.replace("waves", "jumps").replace("2", "1"), form(**choice))
+    given = continue_clips(clip, clip, seconds=3.0, rejoin=True)
+    assert generator.edit(given, "a person jumps", sampling=Sampling(seed=1)).warning
+    assert "does not show “jump”" in text_of(browser, "warnings")
     assert "3.00 seconds" in opened(
         browser, "walk.glb", write_glb(walk, tmp_path / "a.glb").read_bytes()
     )
