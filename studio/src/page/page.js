@@ -32,6 +32,8 @@ class Page {
     this.settings = JSON.parse($("settings").textContent);
     useSkeleton(this.settings.skeleton);
     this.motions = new Map();
+    this.clips = new Map();
+    this.clipBefore = null;
     this.selected = 0;
     this.time = 0;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
@@ -55,6 +57,11 @@ class Page {
 
   get scene() {
     return this.history.now;
+  }
+
+  /** What is opened: { motion, name, number }. */
+  get clip() {
+    return this.clips.get(this.scene.clip) ?? null;
   }
 
   openStage() {
@@ -216,6 +223,12 @@ class Page {
     this.timeline?.show();
     clearTimeout(this.linkTimer); // browsers count how often an address changes
     this.linkTimer = setTimeout(() => history.replaceState(null, "", this.link()), 300);
+    if (this.clip !== this.clipBefore) { // opened, closed, or so by undo
+      if (this.clip) this.putOnStage([this.clip.motion], 0);
+      this.tell(this.clip ? `${this.clip.name}: ${(this.clip.motion.frames / FPS).toFixed(2)} seconds. Choose what is to be done with it, then make.` : "The clip is closed.");
+      this.clipBefore = this.clip;
+      this.showClip();
+    }
     this.showMotions(chosen);
     this.stage?.showPath(this.clip ? null : path);
     this.warnSoon();
@@ -522,7 +535,7 @@ class Page {
         this.showMotions();
       });
     $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
-    $("close-clip").addEventListener("click", () => { this.clip = null; this.tell("The clip is closed."); this.showClip(); this.changed(); });
+    $("close-clip").addEventListener("click", () => this.history.change({ clip: null }));
     for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
     this.showClip();
   }
@@ -541,15 +554,12 @@ class Page {
 
   takeClip(motion, name) {
     this.stopDrawing();
-    this.clips = (this.clips ?? 0) + 1;
-    this.clip = { motion, name, number: this.clips };
+    const number = this.clips.size + 1;
+    this.clips.set(number, { motion, name, number });
     const seconds = motion.frames / FPS;
     $("until").value = Math.min(seconds, 2).toFixed(1);
     $("from").value = Math.min(1, seconds / 3).toFixed(1);
-    this.putOnStage([motion], 0);
-    this.showClip();
-    this.changed();
-    this.tell(`${name}: ${seconds.toFixed(2)} seconds. Choose what is to be done with it, then make.`);
+    this.history.change({ clip: number });
   }
 
   clipChoice() {

@@ -5,7 +5,7 @@ const VERSION = 1;
 
 export const START = {
   blocks: [{ text: "a person waves", seconds: 4 }],
-  seed: 0, takes: 2, chosen: 0, path: null,
+  seed: 0, takes: 2, chosen: 0, path: null, clip: null,
 };
 
 export const within = (value, [low, high], otherwise) => {
@@ -31,12 +31,12 @@ export function checked(raw) {
     path = raw.path.slice(0, LIMITS.points).map((point) => [0, 1].map((i) => Math.round(within(point?.[i], room, 0) * 100) / 100));
     if (path.every((point) => Math.hypot(point[0] - path[0][0], point[1] - path[0][1]) < 0.05)) path = null;
   }
-  return { blocks, seed: whole(raw.seed, [0, LIMITS.seed], 0), takes, chosen: whole(raw.chosen, [0, takes - 1], 0), path };
+  return { blocks, seed: whole(raw.seed, [0, LIMITS.seed], 0), takes, chosen: whole(raw.chosen, [0, takes - 1], 0), path, clip: raw.clip ?? null };
 }
 
-/** The scene as the part of a link behind `#`. */
+/** The scene, without its clip, as the part of a link behind `#`. */
 export function toLink(scene) {
-  const bytes = new TextEncoder().encode(JSON.stringify({ v: VERSION, ...scene }));
+  const bytes = new TextEncoder().encode(JSON.stringify({ v: VERSION, ...scene, clip: undefined }));
   let binary = "";
   for (const byte of bytes) binary += String.fromCharCode(byte);
   return btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
@@ -45,7 +45,7 @@ export function toLink(scene) {
 export function fromLink(hash) {
   try {
     const binary = atob(hash.replace(/^#/, "").replaceAll("-", "+").replaceAll("_", "/"));
-    return checked(JSON.parse(new TextDecoder().decode(Uint8Array.from(binary, (sign) => sign.charCodeAt(0)))));
+    return checked({ ...JSON.parse(new TextDecoder().decode(Uint8Array.from(binary, (sign) => sign.charCodeAt(0)))), clip: null });
   } catch {
     return null;
   }

@@ -732,9 +732,14 @@ def test_an_opened_clip_is_shown_and_has_no_way_on_the_floor(
     assert not browser.evaluate(stale)
     path = "document.getElementById('path')"
     assert browser.evaluate(f"[{path}.value, {path}.disabled]") == ["clip", True]
-    browser.evaluate("document.getElementById('close-clip').click()")
+    browser.evaluate("studio.history.undo()")
     assert browser.evaluate(f"[{path}.value, {path}.disabled]") == ["straight", False]
     assert browser.evaluate("studio.shown[0].text") == "a person waves"
+    browser.evaluate("studio.history.redo()")
+    assert browser.evaluate("studio.shown[0].frames") == 40
+    assert "clip" not in browser.evaluate("atob(studio.link().split('#')[1])")
+    browser.evaluate("document.getElementById('close-clip').click()")
+    assert text_of(browser, "status") == "The clip is closed."
     with_blocks(browser, ("a person waves", 2))
     opened(browser, "still.bvh", data)
     browser.evaluate("document.getElementById('close-clip').click()")
