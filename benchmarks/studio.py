@@ -2,9 +2,9 @@
 
     python -m benchmarks.studio --runs 3
 
-Seconds from the start of loading until the model is there and until the first motion is shown (4 s);
-*next*, from the wish for another seed until that motion is made. Nothing is drawn, for want of
-WebGL. Each run is a browser of its own with an empty profile.
+Seconds from the start of loading until the model is there and until the first motion (4 s) is
+shown; *next*, from the wish for another seed until that motion is made. Nothing is drawn, for want
+of WebGL. Each run is a browser of its own with an empty profile.
 """
 
 import argparse
