@@ -17,7 +17,7 @@ from typing import Annotated, Any, ParamSpec, TypeVar
 
 import typer
 
-from ..shared.errors import UsageError, UserError, printable
+from ..shared.errors import UsageError, UserError, in_range, printable
 from ..shared.io.concurrency import orderly_termination
 from ..shared.io.storage import Place
 
@@ -192,14 +192,8 @@ def check_range(name: str, value: float | None, least: float, most: float) -> No
     Raises:
         UsageError: naming the flag and its range.
     """
-    if value is not None and not least <= value <= most:
-        given, low, high = map(_digits, (value, least, most))
-        raise UsageError(f"{flag_of(name)} {given} is out of range; choose from {low} to {high}")
-
-
-def _digits(value: float) -> str:
-    """All of a number: no 1e+08."""
-    return str(value) if isinstance(value, int) else f"{value:.12g}"
+    if value is not None:
+        in_range(flag_of(name), value, least, most)
 
 
 @contextmanager

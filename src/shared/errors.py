@@ -1,7 +1,8 @@
 """The two errors a user can cause, which become exit codes; text that is safe to show."""
 
 import re
-from typing import TYPE_CHECKING
+from numbers import Integral, Real
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -41,6 +42,26 @@ class UsageError(UserError):
     """The command or its configuration is wrong, so nothing was started (exit code 2)."""
 
     exit_code = 2
+
+
+def in_range(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
+    """Refuse what is no number from `least` to `most`; NaN is none, and no bool.
+
+    Raises:
+        UsageError: naming it and the range.
+    """
+    kind: Any = Integral if whole else Real  # mypy knows no order of numbers in the abstract
+    if isinstance(value, bool) or not (isinstance(value, kind) and least <= value <= most):
+        given, low, high = map(_digits, (value, least, most))
+        what = "is no whole number" if whole and not isinstance(value, kind) else "is out of range"
+        raise UsageError(f"{name} {given} {what}; choose from {low} to {high}")
+
+
+def _digits(value: Any) -> str:
+    """All of a number: no 1e+08."""
+    if isinstance(value, float):
+        return f"{value:.12g}"
+    return str(value) if isinstance(value, Real) else repr(value)
 
 
 def first_fault(error: "ValidationError") -> str:

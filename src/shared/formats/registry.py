@@ -117,7 +117,7 @@ def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") 
 
     Raises:
         UsageError: no format has this ending, or it is not one motion.
-        UserError: the motion is empty or holds NaN, or the file cannot be written.
+        UserError: the motion has a fault (see `Motion.fault`), or the file cannot be written.
     """
     path = Path(path)
     name = format_of(path)
@@ -172,17 +172,8 @@ def check_motion(motion: Any, path: str | Path) -> None:
             f"cannot write {path}: motion is {found}; give one Motion, as `generate` and"
             " `read_motion` make them" + ", and each a file of its own" * several
         )
-    if not motion.num_frames:
-        raise UserError(f"cannot write {path}: the motion has no frames; give one with some")
-    arrays = (motion.quaternions, motion.root_position, motion.contacts)
-    _check_finite("motion", path, *arrays)
-
-
-def _check_finite(what: str, path: str | Path, *arrays: np.ndarray) -> None:
-    if not all(np.isfinite(array).all() for array in arrays):
-        raise UserError(f"cannot write {path}: the {what} holds NaN or infinite values; "
-                        "the model that made it may have diverged in training"
-                        "; train it anew or take an earlier checkpoint")  # fmt: skip
+    if fault := motion.fault():
+        raise UserError(f"cannot write {path}: {fault}")
 
 
 # ---------------------------------------------------------------- trajectories
@@ -280,7 +271,9 @@ def _check_trajectory(trajectory: MotionTrajectory, path: str | Path) -> None:
     """Refuse what no viewer could show; a diverged model makes such trajectories."""
     if not trajectory.num_frames:
         raise UserError(f"cannot write {path}: the trajectory has no frames; give one with some")
-    _check_finite("trajectory", path, trajectory.data)
+    if not np.isfinite(trajectory.data).all():
+        raise UserError(f"cannot write {path}: the trajectory holds NaN or infinite values; the"
+                        " model that made it may have diverged; train it anew")  # fmt: skip
     if np.linalg.norm(trajectory.quaternion, axis=-1).min() < 1e-6:
         raise UserError(f"cannot write {path}: the trajectory holds a quaternion of zeros, "
                         "which is no rotation; make it again")  # fmt: skip

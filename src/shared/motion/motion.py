@@ -4,6 +4,7 @@ Of a dance also its figures: what is danced when, on which counts.
 """
 
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Any, Self
 
 import numpy as np
@@ -18,6 +19,7 @@ from .rotations import (
 from .skeleton import PARENTS, canonical_skeleton
 
 SAME_RATE, ROUNDED = 1e-3, 2e-5  # relative; files say 0.033333 s for 30 fps
+NO_ROTATION = 1e-6  # length of a quaternion
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,29 @@ class Motion:
     @property
     def seconds(self) -> float:
         return self.num_frames / self.fps
+
+    def fault(self) -> str | None:
+        """What no program could show, and what to do about it; None where all is well."""
+        shapes = {"quaternions": (22, 4), "root_position": (3,), "contacts": (2,)}
+        frames = (np.shape(self.quaternions) or (0,))[0]
+        for name, shape in shapes.items():
+            array: Any = getattr(self, name)
+            if not isinstance(array, np.ndarray) or array.shape != (frames, *shape):
+                given = f"{type(array).__name__} of {list(np.shape(array))}"
+                return f"the motion's {name} are {given}; give an array of {[frames, *shape]}"
+            if not np.isfinite(array).all():
+                return (
+                    f"the motion's {name} hold NaN or infinite values; mend them, or train the"
+                    " model anew that made them: it may have diverged"
+                )
+        if not frames:
+            return "the motion has no frames; give one with some"
+        if np.linalg.norm(self.quaternions, axis=-1).min() < NO_ROTATION:
+            return "the motion holds a quaternion of zeros, which is no rotation; make it again"
+        fps, text = vars(self)["fps"], vars(self)["text"]
+        if not (isinstance(fps, Real) and 0 < float(fps) < np.inf):
+            return f"the motion's fps is {fps!r}; give frames a second, more than 0"
+        return None if isinstance(text, str) else f"the motion's text is {text!r}; give a str"
 
     def frames(self, start: int, stop: int) -> Self:
         """The motion from frame `start` to before frame `stop`, where it is in the world."""

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..config_loader import did_you_mean
-from ..errors import UsageError, UserError
+from ..errors import UsageError, UserError, in_range
 from ..metrics.measurements import heading_frame
 from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
@@ -33,16 +33,18 @@ from ..motion.features import (
     encode_features,
     integrate_root,
 )
-from ..motion.motion import Motion
+from ..motion.motion import Motion, resample_motion
 from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..motion.trajectory import FPS
 from ..tensors import Tensor, torch
 from .stream import OVERLAP, Miss, Passage, stream_features
 
 KEEP = 1.0  # seconds of a clip that are kept
 GROUND = [FORWARD, LATERAL, YAW_RATE]  # channels of the root row that say where the body goes
 FULLEST = 0.95  # of the way to the pose that is furthest from the first one: there
+LONGEST = 7200.0  # seconds of a motion that clips are part of
 HARDLY = 0.08  # metres that a joint moves at most where a body holds still
 SWAY_SECONDS = 4.0  # forth and back
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
@@ -76,19 +78,38 @@ class Given:
 
 
 def chosen_joints(names: Collection[str]) -> set[str]:
-    """Joints by their names and those of groups.
+    """Joints by their names and those of groups; one name may stand alone.
 
     Raises:
         UsageError: a name is unknown; names the nearest one.
     """
     known = [*GROUPS, *JOINT_INDEX]
+    names = [names] if isinstance(names, str) else names
     for name in names:
         if name not in known:
             raise UsageError(
-                f"joint {name!r} is unknown; {did_you_mean(name, known)}groups:"
+                f"joint {name!r} is unknown; {did_you_mean(str(name), known)}groups:"
                 f" {', '.join(GROUPS)}; joints: {', '.join(JOINT_INDEX)}"
             )
     return set(chain.from_iterable(GROUPS.get(name, (name,)) for name in names))
+
+
+def at_our_rate(clip: Motion, name: str) -> Motion:
+    """A clip at 30 frames a second, the rate of the features; `name` is what a message calls it.
+
+    Raises:
+        UsageError: no Motion, or one that has a fault or fewer than two frames.
+    """
+    what: Any = clip
+    if not isinstance(what, Motion):
+        kind = type(what).__name__
+        raise UsageError(f"{name} is a {kind}; give a Motion, as `read_motion` makes it")
+    if fault := clip.fault():
+        raise UsageError(f"{name}: {fault}")
+    clip = resample_motion(clip, FPS)
+    if clip.num_frames < 2:
+        raise UsageError(f"{name} is a single frame at {FPS:g} a second; give two or more")
+    return clip
 
 
 def keep_ends(
@@ -142,22 +163,25 @@ def edit_clip(
     """A clip of which the seconds from `begin` to `until` are made anew; see `redo`.
 
     Args:
-        clip: T frames.
+        clip: of any rate; it is made anew at 30 frames a second.
         begin, until: seconds; None = its end.
         joints: only these, or groups of them as "right-arm"; None = the whole body and its path.
 
     Raises:
-        UsageError: a joint is unknown.
+        UsageError: a joint is unknown, or as `at_our_rate`.
         UserError: the span is not in the clip.
     """
+    ours = at_our_rate(clip, "clip")
+    in_range("begin", begin, -LONGEST, LONGEST)
     until = clip.seconds if until is None else until
-    start, stop = round(begin * clip.fps), round(until * clip.fps)
-    if begin < 0 or stop > clip.num_frames or start >= stop:
+    in_range("until", until, -LONGEST, LONGEST)
+    start, stop = round(begin * FPS), min(round(until * FPS), ours.num_frames)
+    if begin < 0 or round(until * clip.fps) > clip.num_frames or start >= stop:
         raise UserError(
             f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
             " it"
         )
-    return redo(clip, start, stop, None if joints is None else chosen_joints(joints))
+    return redo(ours, start, stop, None if joints is None else chosen_joints(joints))
 
 
 def continue_clips(
@@ -171,7 +195,8 @@ def continue_clips(
     """A motion that begins with the first seconds of a clip, or ends with the last ones; or both.
 
     Args:
-        start, end: one of them at least.
+        start, end: one of them at least, of any rate; what is made has 30 frames a second. To go
+            on from where a clip ends, keep all of it: `keep=clip.seconds`, and more `seconds`.
         keep: seconds of each that stay.
         seconds: of the whole; None = what is kept at both ends and 2 s between, or with `rejoin`
             as long as the clip.
@@ -179,13 +204,14 @@ def continue_clips(
 
     Raises:
         UserError: a clip is shorter than what is to be kept.
-        UsageError: no clip, or nothing would be left to make.
+        UsageError: no clip, nothing would be left to make, or as `at_our_rate`.
     """
-    clips = [clip for clip in (start, end) if clip is not None]
+    in_range("keep", keep, 0.0, LONGEST)
+    first = None if start is None else at_our_rate(start, "start")
+    last = None if end is None else at_our_rate(end, "end")
+    clips = [clip for clip in (first, last) if clip is not None]
     if not clips:
-        raise UsageError(
-            "no clip is given; give one to begin with (--start), or to end with (--end)"
-        )
+        raise UsageError("no clip is given; give one to begin with (start), or to end with (end)")
     for name, clip in (("start", start), ("end", end)):
         if clip is not None and clip.seconds < keep:
             raise UserError(
@@ -194,13 +220,15 @@ def continue_clips(
             )
     if seconds is None:
         seconds = clips[0].seconds if rejoin else 2 * keep + 2.0
-    frames, kept = round(seconds * clips[0].fps), round(keep * clips[0].fps)
+    in_range("seconds", seconds, 0.0, LONGEST)
+    frames, kept = round(seconds * FPS), round(keep * FPS)
+    kept = min(kept, *(clip.num_frames for clip in clips))  # seconds of another rate
     if frames - len(clips) * kept < 1 or kept < 1:
         raise UsageError(
             f"a length of {seconds:g} s leaves nothing to make: {len(clips)} × {keep:g} s are kept;"
             " give more seconds or keep less"
         )
-    return keep_ends(start, end, kept, frames, rejoin=rejoin)
+    return keep_ends(first, last, kept, frames, rejoin=rejoin)
 
 
 def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) -> Constraint:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,6 +73,27 @@ def test_motions_that_cannot_be_shown_are_refused(tmp_path: Path, name: str) -> 
         write_motion(standing(0), tmp_path / f"a.{ending(name)}")
     with pytest.raises(UserError, match="NaN"):
         write_preview([standing(), broken], tmp_path / "index.html")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        ({"fps": 0.0}, "fps is 0.0"),
+        ({"fps": float("nan")}, "fps is nan"),
+        ({"text": None}, "text is None"),
+        ({"contacts": np.ones((2, 2), np.float32)}, r"contacts are ndarray of \[2, 2\]; give an"),
+        ({"root_position": [[0.0, 0.0, 0.0]] * 3}, r"root_position are list of \[3, 3\]"),
+        ({"quaternions": np.zeros((3, 22, 4), np.float32)}, "a quaternion of zeros"),
+        ({"quaternions": None}, "quaternions are NoneType"),
+    ],
+)
+def test_a_motion_of_a_users_own_is_looked_at_before_it_is_written(
+    change: dict[str, Any], line: str, tmp_path: Path
+) -> None:
+    for name in EXPORTERS:
+        with pytest.raises(UserError, match=line):
+            write_motion(replace(standing(), **change), tmp_path / f"a.{ending(name)}")
     assert not list(tmp_path.iterdir())
 
 

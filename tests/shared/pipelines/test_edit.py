@@ -1,6 +1,7 @@
 """Editing: what is kept stays as it was, in the body and in the world; the rest is made."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW, Place, integrate_root
-from src.shared.motion.motion import Motion
+from src.shared.motion.motion import Motion, resample_motion
 from src.shared.motion.postprocess.footskate import ease_from_kept
 from src.shared.motion.postprocess.stitching import moved_to, place_of
 from src.shared.motion.rotations import turn_about_y
@@ -21,6 +22,7 @@ from src.shared.pipelines.edit import (
     GROUPS,
     bend_back,
     chosen_joints,
+    continue_clips,
     edit_clip,
     edited,
     fill,
@@ -213,3 +215,52 @@ def test_groups_of_joints_are_joints(clip: Motion) -> None:
     assert torch.equal(by_group, by_joint)
     with pytest.raises(UsageError, match="did you mean 'right-arm'"):
         edit_clip(clip, 0.0, None, ["right-arn"])
+
+
+@pytest.mark.parametrize("fps", [24.0, 60.0, 120.0])
+def test_a_clip_of_another_rate_stays_where_and_when_it_was(
+    fps: float, generator: TextToMotion, clip: Motion
+) -> None:
+    own = resample_motion(clip, fps)
+    wanted = resample_motion(own, 30.0).positions()
+    made = edited(generator, WALK, edit_clip(own, 1.0, 2.0), SETTINGS).motion
+    assert made.fps == 30.0 and made.num_frames == len(wanted)
+    for kept in (slice(0, 30), slice(60, None)):
+        np.testing.assert_allclose(made.positions()[kept], wanted[kept], atol=1e-4)
+    for given in (
+        continue_clips(own, keep=own.seconds, seconds=own.seconds + 1.0),
+        continue_clips(None, own, keep=own.seconds, seconds=own.seconds + 1.0),
+        continue_clips(clip, own, seconds=4.0),
+    ):
+        made = edited(generator, WALK, given, SETTINGS).motion
+        assert made.num_frames == len(given.constraint) and abs(made.seconds - 4) < 2
+
+
+@pytest.mark.parametrize(
+    ("change", "line"),
+    [
+        (lambda clip: "walk.bvh", "clip is a str; give a Motion"),
+        (lambda clip: clip.frames(0, 1), "clip is a single frame"),
+        (lambda clip: replace(clip, fps=0.0), "clip: the motion's fps is 0.0; give"),
+        (
+            lambda clip: replace(clip, root_position=clip.root_position * np.nan),
+            "clip: the motion's root_position hold NaN",
+        ),
+    ],
+)
+def test_what_cannot_be_edited_is_said(change: Any, line: str, clip: Motion) -> None:
+    with pytest.raises(UsageError, match=line):
+        edit_clip(change(clip), 0.1, 0.2)
+
+
+def test_times_that_are_none_are_refused_and_one_joint_may_stand_alone(clip: Motion) -> None:
+    for wrong in (
+        lambda: edit_clip(clip, float("nan")),
+        lambda: edit_clip(clip, 0.0, float("inf")),
+        lambda: continue_clips(clip, keep=float("nan")),
+        lambda: continue_clips(clip, seconds=1e6),
+    ):
+        with pytest.raises(UsageError, match="is out of range; choose from"):
+            wrong()
+    one, listed = (edit_clip(clip, 0, 1, names) for names in ("head", ["head"]))
+    assert torch.equal(one.constraint.known, listed.constraint.known)
