@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 import motionsuite
+from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UsageError
 
 ROOT = Path(__file__).parents[1]
@@ -85,9 +87,17 @@ def test_every_public_name_is_there_and_none_costs_an_import_before() -> None:
     [
         (None, {}, "prompts is None"),
         (["a", 3], {}, "prompts is"),
-        ("a person walks", {"seconds": 1e9}, "seconds 1000000000.0 is out of range"),
+        ("a person walks", {"seconds": 1e9}, "seconds 1000000000 is out of range"),
         (["a", "b"], {"seconds": [1.0, 2.0, 3.0]}, "3 lengths for 2 prompts"),
         ("a person walks", {"sampling": {"seed": 1}}, "sampling is"),
+        ("…", {}, "prompt '…' holds no word"),
+        ("a\ud800", {}, "holds no word"),
+        ("a person walks", {"seconds": np.array(2.0)}, "seconds array"),
+        ("a person walks", {"num_samples": 2.5}, "num_samples 2.5 is out of range"),
+        ("a person walks", {"foot_lock": "no"}, "foot_lock is 'no'; give True or False"),
+        ("a person walks", {"tags": [5]}, "tag 5"),
+        (["a", "b"], {"tags": ["wave"]}, "1 tags for 2 prompts"),
+        ("a person walks", {"progress": 5}, "progress is 5"),
     ],
 )
 def test_mistakes_are_named_before_the_work(
@@ -111,6 +121,74 @@ def test_what_is_not_one_motion_is_not_saved(motion: Any, line: str, tmp_path: P
     assert not list(tmp_path.iterdir())
 
 
+SONG, WALK = "song.wav", "a person walks"
+WAY = [[0.0, 0.0], [0.0, 1.0]]
+
+
+@pytest.mark.parametrize(
+    ("call", "line"),
+    [
+        (lambda g: g.dance(SONG, seconds=-3), "seconds -3 is out of range; choose from 1 to"),
+        (lambda g: g.trajectory(SONG, seconds=float("nan")), "seconds nan is out of range"),
+        (lambda g: g.dance(SONG, WALK, style="proud"), "style .* give follow_path=True"),
+        (lambda g: g.dance(SONG, WALK, follow_path=True, path=WAY), "path does not go with"),
+        (lambda g: g.dance(SONG, WALK, meter=5), "meter 5 .* whole number from 3 to 4"),
+        (lambda g: g.dance(SONG, WALK, num_samples=0), "num_samples 0"),
+        (lambda g: g.dance(SONG, 5), "prompt 5"),
+        (lambda g: g.trajectory(SONG, style=np.full(8, np.nan)), "no unit vector of 8"),
+        (lambda g: g.trajectory(SONG, sampling=None), "sampling is None"),
+        (lambda g: g.timeline(WALK, loop=True, path=WAY), "loop does not go with path"),
+        (lambda g: g.timeline(WALK, seconds="x"), "seconds 'x'"),
+        (lambda g: g.timeline(WALK, path=WAY, seconds=-3), "seconds -3"),
+        (lambda g: g.timeline([]), "the timeline is empty"),
+        (lambda g: g.timeline(WALK, path=[[0, 0, 0], [0, 1, 2]], seconds=2), "has times"),
+        (lambda g: g.timeline(WALK, path=5), "path: holds no list of points"),
+        (lambda g: g.timeline(WALK, path=[[0, 0], [0, "a"]]), "path: point 2: z is 'a'"),
+        (lambda g: g.edit(STILL, WALK), "given is a Motion; make it with edit_clip"),
+        (lambda g: g.edit(motionsuite.edit_clip(STILL, 0, 0.1), ""), "prompt ''"),
+        (lambda g: g.stream(5), "text 5"),
+        (lambda g: g.candidates("…", 1), "holds no word"),
+        (lambda g: motionsuite.load(runtime="Torch"), "runtime 'Torch' is unknown; choose from"),
+        (lambda g: motionsuite.read_motion(SONG, fps=0), "fps 0 is out of range"),
+    ],
+)
+def test_the_library_refuses_what_the_command_does(
+    call: Callable[[motionsuite.MotionGenerator], Any], line: str
+) -> None:
+    with pytest.raises(motionsuite.UserError, match=line):
+        call(motionsuite.load("starter", device="cpu"))
+
+
+def test_seeds_of_numpy_and_paths_of_points_are_taken() -> None:
+    generator = motionsuite.load("starter", device="cpu")
+    wanted = generator.generate(WALK, seconds=1.0, sampling=motionsuite.Sampling(seed=3))[0]
+    for kind in (np.uint8, np.int32, np.uint64):
+        sampling = motionsuite.Sampling(seed=kind(3))
+        [(made)] = generator.candidates(WALK, 1, seconds=1.0, sampling=sampling)
+        assert np.array_equal(made.motion.quaternions, wanted.quaternions) and not made.warning
+    for way in (np.array(WAY), [(0, 0), (0, 1)], [{"x": 0, "z": 0}, {"x": 0, "z": 1}]):
+        made = generator.timeline(WALK, path=way, seconds=2.0)
+        assert made.errors["path_max"] < 0.01 and made.errors["length"] == 1.0
+    assert generator.timeline([WALK, WALK], seconds=1.0).motion.num_frames == 60
+
+
+def test_a_guess_is_said_with_the_motion_every_time() -> None:
+    generator = motionsuite.load("starter", device="cpu")
+    for _ in range(2):
+        [found] = generator.candidates("a person zorbles", 1, seconds=1.0)
+        assert found.warning and "far from anything" in found.warning
+
+
+def test_a_song_is_read_and_told_from_another_by_what_it_is(tmp_path: Path) -> None:
+    file = tmp_path / "click.wav"
+    render_song(SongSpec(seconds=2.0)).write_wav(file)
+    one, two = motionsuite.Song.read(file), motionsuite.Song.read(file)
+    assert one != two and one in {one} and one.sha256 == two.sha256
+    generator = motionsuite.load("starter", device="cpu")
+    with pytest.raises(UsageError, match="meter is of a file; this Song has"):
+        generator.dance(one, WALK, meter=3)
+
+
 def test_samples_are_not_taken_for_a_song() -> None:
     with pytest.raises(motionsuite.UserError, match="audio is a ndarray; give a sound file"):
         motionsuite.load("starter").dance(np.zeros(22050))  # type: ignore[arg-type]
@@ -124,10 +202,16 @@ def test_what_a_user_can_mend_has_a_public_name() -> None:
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"seed": 1.5}, {"seed": 2**70}, {"steps": 0}, {"guidance_scale": float("nan")}],
+    [
+        {"seed": 1.5},
+        {"seed": 2**64},
+        {"seed": True},
+        {"steps": 0},
+        {"guidance_scale": float("nan")},
+    ],
 )
 def test_a_sampling_that_cannot_be_is_refused(wrong: dict[str, Any]) -> None:
-    with pytest.raises(UsageError, match="must be a"):
+    with pytest.raises(UsageError, match="is out of range; choose"):
         motionsuite.Sampling(**wrong)
 
 

@@ -172,7 +172,11 @@ def controlled(request: Request) -> dict[str, Any]:
         plain = path is None and not request.loop
         warnings = warn((generator.sentences if plain else generator.text).scope_warnings(texts))
         made = generator.timeline(
-            timeline, path=path, seconds=request.seconds, loop=request.loop, **options
+            timeline,
+            path=path,
+            seconds=None if path is None or path.times is not None else request.seconds,
+            loop=request.loop,
+            **options,
         )
     else:
         given = read_given(request)

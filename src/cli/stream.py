@@ -91,9 +91,13 @@ def stream(
     def say(line: str) -> None:
         text = " ".join(line.split())
         if text:
+            try:
+                body.say(text)
+            except UsageError as error:  # of one line; the stream goes on
+                complain(f"warning: {error}")
+                return
             for warning in filter(None, generator.text.scope_warnings([text], again=False)):
                 complain(f"warning: {warning}")
-            body.say(text)
 
     def listen() -> None:
         try:

@@ -53,8 +53,8 @@ def in_range(name: str, value: Any, least: float, most: float, *, whole: bool = 
     kind: Any = Integral if whole else Real  # mypy knows no order of numbers in the abstract
     if isinstance(value, bool) or not (isinstance(value, kind) and least <= value <= most):
         given, low, high = map(_digits, (value, least, most))
-        what = "is no whole number" if whole and not isinstance(value, kind) else "is out of range"
-        raise UsageError(f"{name} {given} {what}; choose from {low} to {high}")
+        what = "a whole number from" if whole else "from"
+        raise UsageError(f"{name} {given} is out of range; choose {what} {low} to {high}")
 
 
 def _digits(value: Any) -> str:

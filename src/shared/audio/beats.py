@@ -365,7 +365,7 @@ CHANCE = 0.8  # confidence that a second of noise reaches; falls with the length
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Beats:
     """Beats of a song: tempo (median, BPM; 0.0 = none found) and times in seconds, ascending.
 

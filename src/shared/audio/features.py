@@ -267,7 +267,7 @@ DCT_BLOCK = 18_000  # frames in double precision at a time
 STILL_DB = 1e-2  # an MFCC that varies less is constant; its z-score would be rounding noise
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AudioFeatures:
     """Features of T frames at 30 fps, float32, each scaled over the whole song.
 

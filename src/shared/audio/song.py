@@ -45,7 +45,7 @@ def code_version() -> str:
     return hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Song:
     """What the network and the previews need to know of a song.
 
@@ -62,6 +62,11 @@ class Song:
     seconds: float
     sha256: str
     notes: tuple[str, ...] = ()
+
+    @classmethod
+    def read(cls, path: str | Path, *, meter: int | None = None) -> "Song":
+        """See `analyse`."""
+        return analyse(path, meter=meter)
 
     @property
     def num_frames(self) -> int:

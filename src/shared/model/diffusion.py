@@ -14,12 +14,11 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass, replace
-from numbers import Integral, Real
 from typing import Any
 
 from ..config_schema import DiffusionConfig
 from ..device import idle_threads
-from ..errors import UsageError
+from ..errors import UsageError, in_range
 from ..tensors import F, Tensor, nn, torch
 from .noise import Generators, NoiseSchedule, sampling_timesteps, standard_normal
 
@@ -33,7 +32,7 @@ class Sampling:
     """How a motion is sampled; None = the model's own setting.
 
     Attributes:
-        seed: 0 or more; the same seed, the same motion (on the CPU).
+        seed: from 0 to 2^64 - 1; the same seed, the same motion (on the CPU).
         steps: of denoising.
         sampler: ddim, ddpm or dpm-solver++.
         guidance_scale: how strictly the condition is followed; 1 = no guidance.
@@ -45,14 +44,13 @@ class Sampling:
     guidance_scale: float | None = None
 
     def __post_init__(self) -> None:
-        for name, least in (("seed", 0), ("steps", 1)):
+        for name, limits in (("seed", (0, 2**64 - 1)), ("steps", (1, 10_000))):
             value: Any = getattr(self, name)
-            whole = isinstance(value, Integral) and least <= int(value) < 2**64
-            if not whole and (value is not None or name == "seed"):
-                raise UsageError(f"{name} {value!r} must be a whole number, {least} or more")
-        scale: Any = self.guidance_scale
-        if scale is not None and not (isinstance(scale, Real) and 0 <= float(scale) < math.inf):
-            raise UsageError(f"guidance-scale {scale!r} must be a number, 0 or more")
+            if value is not None or name == "seed":
+                in_range(name, value, *limits, whole=True)
+                object.__setattr__(self, name, int(value))  # NumPy's wrap round
+        if self.guidance_scale is not None:
+            in_range("guidance-scale", self.guidance_scale, 0.0, 1000.0)
 
 
 # ---------------------------------------------------------------- conditions, guidance

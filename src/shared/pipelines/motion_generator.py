@@ -12,9 +12,8 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
-from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,19 +21,19 @@ import numpy as np
 
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
-from ..errors import UsageError
+from ..errors import UsageError, in_range
 from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
-from ..model.onnx_card import AUDIO_KIND, chosen_runtime
+from ..model.onnx_card import AUDIO_KIND, RUNTIMES, chosen_runtime
 from ..motion.motion import Motion
 from .edit import ControlledMotion, Given, edited
-from .path import DrawnPath, TimedPath, along_path, time_path
-from .ranking import PerformanceJudge, ScoreTable, TextJudge, load_tower, own_tower, unranked
+from .path import Way, along_path, path_of
+from .ranking import PerformanceJudge, PromptResult, PromptSampler, TextJudge, load_tower, own_tower
 from .sentence import whole
-from .stream import DEFAULT_SAMPLING, MotionStream, Passage
+from .stream import DEFAULT_SAMPLING, MotionStream, Passage, check_text
 from .text import SentenceGenerator
-from .timeline import Timeline
+from .timeline import Timeline, read_timeline
 
 if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from ..audio.song import Song
@@ -44,7 +43,8 @@ if TYPE_CHECKING:  # who asks for a sentence waits for nothing that songs need
     from .dance import DancePrompter, Dances
     from .song import SongCondition, SongGenerator, SongMotions
 
-SHORTEST, LONGEST = 0.2, 3600.0  # seconds of a clause
+SECONDS = (0.2, 3600.0)  # of a clause
+RANGES = {"num_samples": (1, 100_000), "meter": (3, 4), "song": (1.0, 7200.0)}
 log = logging.getLogger(__name__)
 Stage = Callable[[str], AbstractContextManager[Progress]]
 
@@ -52,69 +52,6 @@ Stage = Callable[[str], AbstractContextManager[Progress]]
 def silently(stage: str) -> AbstractContextManager[Progress]:
     """For a `Stage`: nobody is told how far it is."""
     return nullcontext(lambda done, total: None)
-
-
-@dataclass(frozen=True, eq=False)
-class PromptResult:
-    """The best motion for one prompt; all N, as sampled, if asked for; their scores."""
-
-    motion: Motion
-    all_candidates: list[Motion] | None
-    table: ScoreTable
-
-    def ranked(self) -> list[Motion]:
-        """All candidates, best first; only the best where the others were not kept."""
-        if self.all_candidates is None:
-            return [self.motion]
-        return [self.all_candidates[place] for place in self.table.order]
-
-
-class PromptSampler:
-    """Best of N for prompts, the text side's `MotionSampler`.
-
-    Args:
-        generator: trained; a `SentenceGenerator` is used as it is.
-        judge: of the candidates; one with the generator's motion tower sees the prompt, None
-            makes one without.
-    """
-
-    def __init__(
-        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
-    ) -> None:
-        if isinstance(generator, TextToMotion):
-            generator = SentenceGenerator(generator)
-        self.generator = generator
-        self.judge = judge or TextJudge()
-
-    def sample(
-        self,
-        prompts: Sequence[str],
-        num_samples: int = 8,
-        *,
-        return_all: bool = False,
-        **options: Any,
-    ) -> list[PromptResult]:
-        """Sample N candidates a prompt and keep the one that the judge puts first.
-
-        Args:
-            prompts: see `SentenceGenerator.generate`.
-            num_samples: N; candidate i depends on (seed, prompt, i) alone.
-            return_all: keep the others too.
-            options: what else `SentenceGenerator.generate` takes.
-
-        Raises:
-            UserError: as `SentenceGenerator.generate`.
-        """
-        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
-        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
-        results = []
-        for number in range(len(prompts)):
-            made = motions[number * num_samples : (number + 1) * num_samples]
-            table = unranked()
-            if embeddings is not None:
-                table = self.judge.judge(made, embeddings[number])
-            results.append(PromptResult(made[table.best], made if return_all else None, table))
-        return results
 
 
 class MotionGenerator:
@@ -137,6 +74,7 @@ class MotionGenerator:
         path_post_processing: of paths, `key=value` of `PostProcessConfig` over the model's own.
 
     Raises:
+        UsageError: an unknown runtime.
         UserError: wherever a model is first needed and cannot be used.
     """
 
@@ -152,6 +90,8 @@ class MotionGenerator:
         post_processing: Sequence[str] = (),
         path_post_processing: Sequence[str] = (),
     ) -> None:
+        if runtime not in RUNTIMES:
+            raise UsageError(f"runtime {runtime!r} is unknown; choose from {', '.join(RUNTIMES)}")
         self._text, self._body, self._path = text, post_processing, path_post_processing
         self._audio = default_audio_model() if audio is None else audio
         self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
@@ -278,14 +218,11 @@ class MotionGenerator:
             UsageError: an argument cannot be worked with.
             UserError: the model is untrained.
         """
-        texts = _texts(prompts)
-        if not isinstance(sampling, Sampling):
-            raise UsageError(f"sampling is {sampling!r}; give Sampling(seed=…, steps=…)")
         found = self.candidates(
-            texts,
+            prompts,
             num_samples,
-            seconds=_lengths(seconds, len(texts)),
-            tags=[tags] * len(texts) if isinstance(tags, str) else tags,
+            seconds=seconds,
+            tags=tags,
             return_all=return_all,
             sampling=sampling,
             foot_lock=foot_lock,
@@ -295,18 +232,34 @@ class MotionGenerator:
 
     def candidates(
         self,
-        prompts: Sequence[str],
+        prompts: str | Sequence[str],
         num_samples: int = 8,
         *,
+        seconds: float | Sequence[float] = 4.0,
+        tags: str | Sequence[str | None] | None = None,
         return_all: bool = True,
         sampling: Sampling = DEFAULT_SAMPLING,
-        **options: Any,
+        foot_lock: bool | None = None,
+        progress: Progress | None = None,
     ) -> list[PromptResult]:
-        """As `generate`, with the scores of the candidates."""
+        """As `generate`, with the scores of the candidates, and what is to be warned of."""
+        texts = _texts(prompts)
+        _check(sampling, num_samples=num_samples, return_all=return_all, foot_lock=foot_lock)
+        if not texts:
+            return []
+        if progress is not None and not callable(progress):
+            raise UsageError(f"progress is {progress!r}; give a function of two numbers")
         judge = TextJudge(self.tower) if num_samples > 1 else None
         sampler = PromptSampler(self.sentences, judge)
         return sampler.sample(
-            prompts, num_samples, return_all=return_all, **vars(sampling), **options
+            texts,
+            num_samples,
+            return_all=return_all,
+            seconds=_lengths(seconds, len(texts)),
+            tags=_labels(tags, len(texts)),
+            **vars(sampling),
+            foot_lock=foot_lock,
+            progress=progress,
         )
 
     # ------------------------------------------------------------ songs
@@ -334,13 +287,15 @@ class MotionGenerator:
             stage: given "path", a context of what is told the frames that are done.
 
         Raises:
+            UsageError: an argument cannot be worked with.
             UserError: the file cannot be used.
         """
-        from .song import styled
+        from .song import analysed, styled
         from .song_sampler import SongSampling
 
-        song = _analysed(audio, meter)
-        style = styled(style) if isinstance(style, str) else style
+        _check(sampling, num_samples=num_samples, meter=meter, song=seconds)
+        style = styled(style)
+        song = analysed(audio, meter)
         settings = SongSampling(num_samples, **vars(sampling))
         with stage("path") as progress:
             return self.audio.trajectories(
@@ -357,7 +312,7 @@ class MotionGenerator:
         seconds: float | None = None,
         figures: bool = True,
         follow_path: bool = False,
-        path: DrawnPath | None = None,
+        path: Way | None = None,
         style: str | np.ndarray | None = None,
         num_samples: int = 1,
         sampling: Sampling = DEFAULT_SAMPLING,
@@ -373,21 +328,28 @@ class MotionGenerator:
             figures: recorded ones, wherever they show what the prompt asks; else the text model
                 dances alone.
             follow_path: the audio model makes a path that the body follows.
-            path: where it goes instead; see `path.read_path`. Without times it takes as long as
-                the song.
-            style: of the audio model's path, see `trajectory`; None = what the prompt says of it.
+            path: where it goes instead; see `timeline`. Without times it takes as long as the song.
+            style: of the path that is followed, see `trajectory`; None = what the prompt says.
             sampling: the guidance is the body's; the path keeps its model's own.
             foot_lock: hold standing feet; None = the model's own setting.
             stage: given "path" and "body", see `trajectory`.
 
         Raises:
+            UsageError: an argument cannot be worked with, or does not go with the others.
             UserError: the file cannot be used, or the path is too long for the song.
         """
+        _check(sampling, num_samples=num_samples, meter=meter, song=seconds, figures=figures,
+               follow_path=follow_path, foot_lock=foot_lock, prompt=prompt, tag=tag)  # fmt: skip
+        if style is not None and not follow_path:
+            raise UsageError("style is of the path that is followed; give follow_path=True, too")
+        if path is not None and follow_path:
+            raise UsageError("path does not go with follow_path; leave one out")
+        drawn = None if path is None else path_of(path)
         from .body import Performer, PerformerSettings
         from .dance import SongPerformer
-        from .song import SongCondition, finished
+        from .song import SongCondition, analysed, finished, in_time_of
 
-        song = SongCondition.of(_analysed(audio, meter), seconds)
+        song = SongCondition.of(analysed(audio, meter), seconds)
         judge = None
         if num_samples > 1:
             judge = PerformanceJudge(self.audio.bands if follow_path else None, self.tower)
@@ -402,10 +364,10 @@ class MotionGenerator:
         if follow_path:
             raw = self._song_path(song, prompt, style, num_samples, sampling, stage)
             paths = [finished(each, self.audio.post_processing) for each in raw]
-        elif path is not None:
-            raw, paths = None, [_drawn(path, song)] * num_samples
+        elif drawn is not None:
+            raw, paths = None, [in_time_of(song, drawn)] * num_samples
         with stage("body") as progress:
-            if not follow_path and path is None:
+            if not follow_path and drawn is None:
                 return dancers.dance(
                     song, prompt, num_samples=num_samples, **own, progress=progress
                 )
@@ -424,7 +386,7 @@ class MotionGenerator:
         from .song import styled
         from .song_sampler import SongSampling
 
-        own = styled(style) if isinstance(style, str) else style
+        own = styled(style)
         if own is None and prompt is not None:
             own = self.text.style_of(prompt)
         settings = SongSampling(num_samples, **vars(sampling) | {"guidance_scale": None})
@@ -449,7 +411,15 @@ class MotionGenerator:
             prompt: what the rest shows, sampled again and warned of where it does not, as far as
                 kinematics tell; None = nothing is said.
             tag, sampling, foot_lock: see `generate`.
+
+        Raises:
+            UsageError: an argument cannot be worked with.
         """
+        _check(sampling, foot_lock=foot_lock, prompt=prompt, tag=tag)
+        what: Any = given
+        if not isinstance(what, Given):
+            kind = type(what).__name__
+            raise UsageError(f"given is a {kind}; make it with edit_clip or continue_clips")
         own, said, miss = self.sentences, prompt, None
         if prompt is not None:
             said, miss = whole(prompt, own.clauses(prompt)), own.unseen(prompt)
@@ -465,9 +435,9 @@ class MotionGenerator:
 
     def timeline(
         self,
-        timeline: Timeline | Sequence[str],
+        timeline: Timeline | str | Path | Sequence[str],
         *,
-        path: DrawnPath | None = None,
+        path: Way | None = None,
         seconds: float | None = None,
         loop: bool = False,
         sampling: Sampling = DEFAULT_SAMPLING,
@@ -476,17 +446,38 @@ class MotionGenerator:
         """One motion with one or several texts, on a path or in a loop.
 
         Args:
-            timeline: see `timeline.read_timeline` and `Timeline.of`; or texts, one after another.
-            path: where it goes; see `path.read_path`.
-            seconds: how long a path without times takes; None = as its text is wont to go.
+            timeline: a text, or several, one after another; a `Path` of what `read_timeline`
+                reads; or a `Timeline`.
+            path: where it goes: points, each x, z in metres and, if you like, t and heading; a file
+                of them, see `read_path`; or a `DrawnPath`.
+            seconds: of each text that names no length, 4 if None; of one text on a path without
+                times, how long that takes, None = as its text is wont to go.
             loop: the last frame leads into the first one.
             sampling, foot_lock: see `generate`.
+
+        Raises:
+            UsageError: an argument cannot be worked with, or does not go with the others.
+            UserError: a file cannot be read, or the path is too long for its seconds.
         """
+        _check(sampling, loop=loop, foot_lock=foot_lock)
+        drawn = None if path is None else path_of(path)
+        if drawn is not None and loop:
+            raise UsageError("loop does not go with path; leave one out")
+        if seconds is not None:
+            in_range("seconds", seconds, *SECONDS)
+        if isinstance(timeline, Path):
+            timeline = read_timeline(timeline)
         if not isinstance(timeline, Timeline):
-            timeline = Timeline.of(_texts(timeline))
-        if path is not None:
+            timeline = Timeline.of(_texts(timeline), seconds)
+        elif seconds is not None and (timeline.timed or drawn is None):
+            raise UsageError("seconds does not go with a timeline, which says how long it is")
+        if not timeline.passages:
+            raise UsageError("the timeline is empty; give a text, e.g. ['a person walks']")
+        if drawn is not None:
+            if drawn.times is not None and seconds is not None:
+                raise UsageError("seconds does not go with a path that has times; leave it out")
             return along_path(
-                self.text, timeline, path, sampling, seconds=seconds, foot_lock=foot_lock
+                self.text, timeline, drawn, sampling, seconds=seconds, foot_lock=foot_lock
             )
         if loop:
             return self.sentences.loop(timeline, sampling, foot_lock=foot_lock)
@@ -498,25 +489,55 @@ class MotionGenerator:
 
 
 def _texts(prompts: str | Sequence[str]) -> list[str]:
-    if isinstance(prompts, str):
-        return [prompts]
-    found = list(prompts) if isinstance(prompts, Iterable) else [prompts]
+    several = isinstance(prompts, Iterable) and not isinstance(prompts, str)
+    found: list[Any] = [*prompts] if several else [prompts]
     if not all(isinstance(each, str) for each in found):
         raise UsageError(f"prompts is {prompts!r}; give a sentence, or a list of sentences")
+    for each in found:
+        check_text("prompt", each)
     return found
+
+
+def _check(sampling: Sampling, **given: Any) -> None:
+    """Refuse what is no sampling, number, text or flag, whatever its name says it is to be."""
+    if not isinstance(sampling, Sampling):
+        raise UsageError(f"sampling is {sampling!r}; give Sampling(seed=…, steps=…)")
+    for name, value in given.items():
+        if value is None and name != "num_samples":
+            continue
+        if name in RANGES:
+            least, most = RANGES[name]
+            shown = "seconds" if name == "song" else name
+            in_range(shown, value, least, most, whole=isinstance(least, int))
+        elif name in ("prompt", "tag"):
+            check_text(name, value)
+        elif not isinstance(value, bool | np.bool_):
+            raise UsageError(f"{name} is {value!r}; give True or False")
 
 
 def _lengths(seconds: float | Sequence[float], number: int) -> list[float]:
     """Of so many prompts, each a number of seconds that one can wait for."""
-    found: list[Any] = [*seconds] if isinstance(seconds, Iterable) else [seconds] * number
+    found: list[Any] = [seconds] * number
+    if isinstance(seconds, Iterable) and np.ndim(seconds):
+        found = [*seconds]
     if len(found) != number:
         raise UsageError(f"{len(found)} lengths for {number} prompts; give one for all or one each")
     for each in found:
-        if not (isinstance(each, Real) and SHORTEST <= float(each) <= LONGEST):
-            raise UsageError(
-                f"seconds {each!r} is out of range; choose from {SHORTEST} to {LONGEST:g}"
-            )
+        in_range("seconds", each, *SECONDS)
     return [float(each) for each in found]
+
+
+def _labels(tags: str | Sequence[str | None] | None, number: int) -> list[str | None]:
+    """Of so many prompts, each a tag or None."""
+    found: list[Any] = [tags] * number
+    if isinstance(tags, Iterable) and not isinstance(tags, str):
+        found = [*tags]
+    if len(found) != number:
+        raise UsageError(f"{len(found)} tags for {number} prompts; give one for all or one each")
+    for each in found:
+        if each is not None:
+            check_text("tag", each)
+    return found
 
 
 def load(
@@ -552,29 +573,7 @@ def load(
     return MotionGenerator.from_pretrained(name_or_folder, **options)
 
 
-def _analysed(audio: Song | str | Path, meter: int | None) -> Song:
-    from ..audio.song import Song, analyse
-
-    if not isinstance(audio, Song | str | Path):
-        raise UsageError(
-            f"audio is a {type(audio).__name__}; give a sound file, or a Song (of samples in"
-            " memory: write them as WAV first)"
-        )
-    return audio if isinstance(audio, Song) else analyse(audio, meter=meter)
-
-
-def _drawn(path: DrawnPath, song: SongCondition) -> MotionTrajectory:
-    """A drawn path in the time of a song, at most as long as it."""
-    from ..motion.trajectory import FPS
-
-    frames = song.condition.shape[1]
-    seconds = None if path.times is not None else (frames - 1) / FPS
-    timed = time_path(path, fps=FPS, seconds=seconds)
-    length = min(len(timed), frames)
-    phase = None if song.phase is None else song.phase[:length]
-    return TimedPath(timed.points[:length], timed.headings[:length], FPS).trajectory(phase)
-
-
 def _changed(config: ConfigT, overrides: Sequence[str]) -> ConfigT:
     """A configuration with `key=value` over it."""
+    overrides = [overrides] if isinstance(overrides, str) else overrides
     return load_config(type(config), dump_config(config), "post-processing", overrides)

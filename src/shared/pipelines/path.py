@@ -65,6 +65,24 @@ class DrawnPath:
         return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
 
 
+Way = DrawnPath | str | Path | np.ndarray | Sequence[Any]  # what a path may be given as
+
+
+def path_of(way: Way) -> DrawnPath:
+    """A path that is drawn already; a file, see `read_path`; or points, as a list or an array
+    [N,2 to 4], each x, z and, if you like, t and heading.
+
+    Raises:
+        UserError: as `read_path`.
+    """
+    if isinstance(way, DrawnPath):
+        return way
+    if isinstance(way, str | Path):
+        return read_path(way)
+    name = Path("path")
+    return _path(*_listed_rows(np.array(way, dtype=object).tolist(), name), name)
+
+
 def read_path(path: str | Path) -> DrawnPath:
     """A path from CSV (with or without a line of names), JSON or YAML.
 
@@ -81,6 +99,10 @@ def read_path(path: str | Path) -> DrawnPath:
         names, rows = _csv_rows(text, path)
     else:
         names, rows = _listed_rows(parse_yaml(text, str(path)), path)
+    return _path(names, rows, path)
+
+
+def _path(names: tuple[str, ...], rows: list[Any], path: Path) -> DrawnPath:
     values = _numbers(rows, names, path)
     column = {name: values[:, index] for index, name in enumerate(names)}
     headings = column.get("heading")

@@ -34,10 +34,12 @@ from ..metrics.physical import contact_slide, mean_jerk, penetration
 from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beats
 from ..metrics.sanity import Bands, SanityChecker, mean_margin, share
 from ..model.checkpoint import list_models, read_card, resolve_model
+from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
 from ..tensors import Tensor, torch
+from .text import SentenceGenerator
 
 if TYPE_CHECKING:
     from ..model.audio.shared_space import MotionTower
@@ -409,3 +411,73 @@ def _similarity(tower: Tower, performance: "Performance", prompts: Tensor) -> fl
         asked = min(int(np.searchsorted(ends, start + len(window) // 2)), len(ends) - 1)
         cosines.append(float(tower(window[None])[0].cpu() @ prompts[asked].detach().float().cpu()))
     return float(np.clip(np.mean(cosines), 0, 1))
+
+
+# ---------------------------------------------------------------- sampling
+
+
+@dataclass(frozen=True, eq=False)
+class PromptResult:
+    """The best motion for one prompt; all N, as sampled, if asked for; their scores; and a line if
+    the prompt is far from what the model knows, or the best does not show what it asks for."""
+
+    motion: Motion
+    all_candidates: list[Motion] | None
+    table: ScoreTable
+    warning: str | None = None
+
+    def ranked(self) -> list[Motion]:
+        """All candidates, best first; only the best where the others were not kept."""
+        if self.all_candidates is None:
+            return [self.motion]
+        return [self.all_candidates[place] for place in self.table.order]
+
+
+class PromptSampler:
+    """Best of N for prompts, the text side's `MotionSampler`.
+
+    Args:
+        generator: trained; a `SentenceGenerator` is used as it is.
+        judge: of the candidates; one with the generator's motion tower sees the prompt, None
+            makes one without.
+    """
+
+    def __init__(
+        self, generator: TextToMotion | SentenceGenerator, judge: TextJudge | None = None
+    ) -> None:
+        if isinstance(generator, TextToMotion):
+            generator = SentenceGenerator(generator)
+        self.generator = generator
+        self.judge = judge or TextJudge()
+
+    def sample(
+        self,
+        prompts: Sequence[str],
+        num_samples: int = 8,
+        *,
+        return_all: bool = False,
+        **options: Any,
+    ) -> list[PromptResult]:
+        """Sample N candidates a prompt and keep the one that the judge puts first.
+
+        Args:
+            prompts: see `SentenceGenerator.generate`.
+            num_samples: N; candidate i depends on (seed, prompt, i) alone.
+            return_all: keep the others too.
+            options: what else `SentenceGenerator.generate` takes.
+
+        Raises:
+            UserError: as `SentenceGenerator.generate`.
+        """
+        motions = self.generator.generate(prompts, num_samples=num_samples, **options)
+        embeddings = None if num_samples == 1 else self.generator.encode_prompts(prompts).pooled
+        results, warnings = [], self.generator.scope_warnings(prompts)
+        for number, prompt in enumerate(prompts):
+            made = motions[number * num_samples : (number + 1) * num_samples]
+            table = unranked()
+            if embeddings is not None:
+                table = self.judge.judge(made, embeddings[number])
+            best, kept = made[table.best], made if return_all else None
+            warning = warnings[number] or self.generator.missed(prompt, best)
+            results.append(PromptResult(best, kept, table, warning))
+        return results

@@ -17,7 +17,7 @@ from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
 from ..device import choose_device
-from ..errors import UserError
+from ..errors import UsageError, UserError
 from ..metrics.sanity import Bands
 from ..model.audio.audio_motion_model import AudioMotionModel
 from ..model.audio.conditioning import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
@@ -25,7 +25,8 @@ from ..model.checkpoint import resolve_model
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.postprocess.trajectory import MotionPostProcessor
 from ..motion.style import named_style, only_style_words
-from ..motion.trajectory import FPS, MotionTrajectory, unwrap_phase
+from ..motion.trajectory import FPS, NEUTRAL_STYLE, MotionTrajectory, unwrap_phase
+from .path import DrawnPath, TimedPath, time_path
 from .ranking import AudioJudge, ScoreTable, unranked
 from .runtime import Runtime, load_runtime
 from .song_sampler import Progress, SongSampler, SongSampling
@@ -258,14 +259,52 @@ def shipped_bands(name_or_folder: str | Path) -> Bands | None:
     return Bands.load(path) if path.is_file() else None
 
 
-def styled(text: str | None) -> np.ndarray | None:
-    """The style [8] that a text names; None without one.
+def analysed(audio: Song | str | Path, meter: int | None = None) -> Song:
+    """A song, or that of a sound file.
+
+    Raises:
+        UsageError: neither, or a meter for what has its own.
+        UserError: the file cannot be used.
+    """
+    if not isinstance(audio, Song | str | Path):
+        raise UsageError(
+            f"audio is a {type(audio).__name__}; give a sound file, or a Song (of samples in"
+            " memory: write them as WAV first)"
+        )
+    if not isinstance(audio, Song):
+        return analyse(audio, meter=meter)
+    if meter is not None:
+        raise UsageError(f"meter is of a file; this Song has {audio.beats.meter} beats a bar")
+    return audio
+
+
+def in_time_of(song: SongCondition, path: DrawnPath) -> MotionTrajectory:
+    """A drawn path in the time of a song, at most as long as it."""
+    frames = song.condition.shape[1]
+    seconds = None if path.times is not None else (frames - 1) / FPS
+    timed = time_path(path, fps=FPS, seconds=seconds)
+    length = min(len(timed), frames)
+    phase = None if song.phase is None else song.phase[:length]
+    return TimedPath(timed.points[:length], timed.headings[:length], FPS).trajectory(phase)
+
+
+def styled(text: str | np.ndarray | None) -> np.ndarray | None:
+    """The style [8] that a text names; None without one, and a vector as it is.
 
     A list of style words is looked up; any other text is read as a prompt, through the map of
     styles that the text model has learned (ruling 11).
+
+    Raises:
+        UsageError: a vector that is none.
     """
     if text is None:
         return None
+    if not isinstance(text, str):
+        vector = np.asarray(text)
+        numbers = vector.shape == NEUTRAL_STYLE.shape and vector.dtype.kind in "fiu"
+        if not (numbers and np.isfinite(vector).all() and vector.any()):
+            raise UsageError(f"style {text!r} is no unit vector of 8 numbers; give one, or words")
+        return vector
     if only_style_words(text):
         return named_style(text)
     found = TextToMotion.from_pretrained(STYLE_MODEL).style_of(text)

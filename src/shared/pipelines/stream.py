@@ -14,10 +14,11 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from ..errors import UsageError
+from ..errors import UsageError, in_range
 from ..metrics.measurements import ends_at_rest
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -251,6 +252,17 @@ class Latency:
     load: float | None
 
 
+def check_text(name: str, text: Any) -> None:
+    """Refuse a text without a letter or digit, and one with half characters.
+
+    Raises:
+        UsageError: naming it.
+    """
+    whole = isinstance(text, str) and text.encode(errors="ignore").decode() == text
+    if not (whole and any(map(str.isalnum, text))):
+        raise UsageError(f"{name} {text!r} holds no word; say in a few what is done")
+
+
 class MotionStream:
     """Motion without end, in pieces that follow each other, while prompts change.
 
@@ -293,6 +305,9 @@ class MotionStream:
         sampling: Sampling = DEFAULT_SAMPLING,
         foot_lock: bool | None = None,
     ) -> None:
+        in_range("seconds", seconds, 1 / 30, 60.0)
+        if isinstance(prompts, str) or not isinstance(prompts, Iterable):
+            check_text("text", prompts)
         self._fps = generator.card.fps
         self._frames = round(seconds * self._fps)
         self._prompts = [] if isinstance(prompts, str) else prompts
@@ -321,8 +336,7 @@ class MotionStream:
         Raises:
             UsageError: no text; the stream goes on as it was.
         """
-        if not text.strip():
-            raise UsageError(f"say({text!r}) holds no text; give what is done next, or stop()")
+        check_text("text", text)
         self._now = Passage(text, self._frames, tag)
 
     def stop(self) -> None:

@@ -78,8 +78,8 @@ def test_real_time_is_kept(generator: MotionGenerator) -> None:
 def test_faults_reach_who_listens(generator: MotionGenerator) -> None:
     with pytest.raises(UsageError, match="sampler"):
         body(generator, sampling=Sampling(sampler="euler")).play([print], seconds=1.0)
-    with pytest.raises(UsageError, match="no text"):
-        body(generator).say("  ")
+    with pytest.raises(UsageError, match="no word"):
+        body(generator).say(" … ")
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.unet import MatrixConv1d
 from src.shared.model.checkpoint import ModelCard
 from src.shared.pipelines import runtime
+from src.shared.pipelines.motion_generator import load
 from src.shared.pipelines.runtime import load_runtime, load_trained
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
@@ -60,6 +61,8 @@ def test_what_ships_is_sampled_by_onnxruntime_unless_another_decoder_is_named(
 ) -> None:
     pytest.importorskip("onnxruntime")
     assert SongGenerator.from_pretrained("starter-audio", runtime="auto").runtime == "onnx"
+    for name in ("onnx", "torch"):
+        assert load("starter", device="cpu", runtime=name).text.runtime == name
     saved(tmp_path, trained=True)  # has no export
     assert SongGenerator.from_pretrained(tmp_path, device="cpu", runtime="auto").runtime == "torch"
     monkeypatch.setenv("MOTIONGEN_DECODER_CHECKPOINT", "starter-audio")

@@ -227,7 +227,7 @@ def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotio
     stream = MotionStream(generator, "a person walks forward", seconds=1.0)
     pieces = iter(stream)
     next(pieces)
-    with pytest.raises(UsageError, match="holds no text"):
+    with pytest.raises(UsageError, match="holds no word"):
         stream.say("  ")
     assert next(pieces).num_frames > 0
 

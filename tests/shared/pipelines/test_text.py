@@ -21,9 +21,8 @@ from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
-from src.shared.pipelines.motion_generator import PromptSampler
 from src.shared.pipelines.path import turned
-from src.shared.pipelines.ranking import TextJudge
+from src.shared.pipelines.ranking import PromptSampler, TextJudge
 from src.shared.pipelines.stream import Passage
 from src.shared.pipelines.text import INSISTING, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline

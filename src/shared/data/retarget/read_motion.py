@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import UserError
+from ...errors import UserError, in_range
 from ...formats.amass import is_amass, read_amass
 from ...formats.arrays import read_npz
 from ...formats.csv_files import read_motion_csv
@@ -124,6 +124,7 @@ def _npy(path: Path, fps: float | None) -> Recording:
 
 SAME_BONES = 1e-4  # metres: a file with our own skeleton, so nothing is to be fitted
 LEGS = (0.4, 1.3)  # metres, hip to ankle: children to giants
+RATES = (1.0, 2000.0)  # frames a second
 MAX_FRAMES = 200_000  # of a result at another rate: nearly two hours at 30 a second
 NEAR_RATE = 0.01  # relative: 119.88 frames a second are thinned out like 120
 
@@ -160,11 +161,11 @@ class Inspection:
 def read_motion(
     path: str | Path,
     *,
-    mapping: Path | None = None,
+    mapping: str | Path | None = None,
     unit: str | None = None,
     up: str | None = None,
     fps: float | None = 30.0,
-    skeleton: Path | None = None,
+    skeleton: str | Path | None = None,
     source_fps: float | None = None,
 ) -> Motion:
     """Read a motion file of any known format onto the canonical skeleton, +Y up, metres.
@@ -182,11 +183,16 @@ def read_motion(
         source_fps: of the recording, for formats that do not say (AMC: 120 is assumed).
 
     Raises:
+        UsageError: a rate out of range.
         UserError: missing, damaged, too large, of no known format, or with joints that no profile
             maps; names the file, the place and the remedy.
     """
-    recording = open_recording(Path(path), skeleton=skeleton, fps=source_fps)
-    return fit(Path(path), recording, load_mappings(mapping), unit=unit, up=up, fps=fps)
+    for name, rate in (("fps", fps), ("source_fps", source_fps)):
+        if rate is not None:
+            in_range(name, rate, *RATES)
+    asf, table = (None if each is None else Path(each) for each in (skeleton, mapping))
+    recording = open_recording(Path(path), skeleton=asf, fps=source_fps)
+    return fit(Path(path), recording, load_mappings(table), unit=unit, up=up, fps=fps)
 
 
 def fit(
@@ -200,7 +206,9 @@ def fit(
 ) -> Motion:
     """A recording onto our skeleton; the arguments are those of `read_motion`."""
     if recording.motion is not None:
-        return recording.motion if fps is None else resample_motion(recording.motion, fps)
+        own = recording.motion
+        _check_length(path, own.seconds, fps)
+        return own if fps is None else resample_motion(own, fps)
     clip = recording.clip
     assert clip is not None
     profile = mapping_of(path, clip, mappings)
@@ -210,15 +218,18 @@ def fit(
     metres = unit_metres(unit) if unit else metres
     if fps is not None:
         clip = thinned(clip, fps)
-        if clip.num_frames * clip.frame_time * fps > MAX_FRAMES:
-            raise UserError(f"{path}: {clip.num_frames * clip.frame_time:.0f} s at {fps:g} frames "
-                            f"a second are over the limit of {MAX_FRAMES} frames; split the file "
-                            "or keep its own rate")  # fmt: skip
+        _check_length(path, clip.num_frames * clip.frame_time, fps)
     try:
         motion = retarget(clip, profile, fps=fps, up=up, metres=metres, ground=not ours)
     except ValueError as error:
         raise UserError(f"{path}: {error}") from None
     return replace(motion, text=recording.text)
+
+
+def _check_length(path: Path, seconds: float, fps: float | None) -> None:
+    if fps is not None and seconds * fps > MAX_FRAMES:
+        raise UserError(f"{path}: {seconds:.0f} s at {fps:g} frames a second are over the limit of "
+                        f"{MAX_FRAMES} frames; split the file or keep its own rate")  # fmt: skip
 
 
 def thinned(clip: SourceClip, fps: float) -> SourceClip:

@@ -28,8 +28,7 @@ from ...metrics.sanity import Bands
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
-from ...pipelines.motion_generator import PromptSampler
-from ...pipelines.ranking import AudioJudge, TextJudge, load_tower, own_tower
+from ...pipelines.ranking import AudioJudge, PromptSampler, TextJudge, load_tower, own_tower
 from ...pipelines.song import AudioCondition, SongGenerator, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ..engine import Progress, Value

@@ -133,6 +133,7 @@ def _check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[in
 
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
+ON_CPU = 8  # of them on a CPU, whose caches hold no more
 ENCODED = 8  # lists of prompts whose encoding is remembered
 Progress = Callable[[int, int], None]  # motions done, motions in all
 
@@ -187,7 +188,8 @@ class TextToMotion:
     @property
     def runtime(self) -> str:
         """What computes: torch or onnx."""
-        return "torch" if hasattr(self.denoiser, "state_dict") else "onnx"
+        learned: Any = getattr(self.denoiser, "parameters", tuple)()  # an export's lie in its graph
+        return "torch" if any(True for _ in learned) else "onnx"
 
     def with_denoiser(self, denoiser: "MotionDenoiser", **changed: Any) -> "TextToMotion":
         """The same with another denoiser, and with other arguments of the class."""
@@ -311,7 +313,8 @@ class TextToMotion:
         led = any(each is not None and each.beats is not None for each in given)
         samples: dict[int, Tensor] = {}
         # Neither draws nor rhythm guidance leave padding out, and company must change nothing.
-        for batch in batches(requests, MAX_BATCH, equal_lengths=draws_on_the_way or led):
+        size = ON_CPU if self.device.type == "cpu" else MAX_BATCH
+        for batch in batches(requests, size, equal_lengths=draws_on_the_way or led):
             chosen = [requests[index] for index in batch]
             rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
             known = KnownBatch.of(

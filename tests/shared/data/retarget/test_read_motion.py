@@ -1,12 +1,13 @@
 """Any motion file in: formats, guesses, exact round trips of our own files."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from src.shared.data.retarget.read_motion import inspect_motion, read_motion
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.arrays import write_npz
 from src.shared.formats.writers.bvh import write_bvh
 from src.shared.motion.motion import Motion
@@ -51,3 +52,23 @@ def test_inspection_of_our_bvh(tmp_path: Path) -> None:
     assert (found.format, found.frames, found.unit, found.up) == ("BVH", 12, "cm", "Y")
     assert found.mapping == "motion-suite" and not found.warnings
     assert found.fps == pytest.approx(30) and found.seconds == pytest.approx(0.4)
+
+
+def test_a_mapping_is_a_file_of_the_folder_one_is_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine.yaml").write_text("profiles: []\n", encoding="utf-8")
+    path = write_bvh(a_motion(), tmp_path / "a.bvh")
+    monkeypatch.chdir(tmp_path)
+    assert read_motion(path, mapping="mine.yaml").num_frames == 12
+    with pytest.raises(UsageError, match=r"^none\.yaml: cannot read it"):
+        read_motion(path, mapping="none.yaml")
+
+
+def test_rates_and_lengths_are_held_in_bounds(tmp_path: Path) -> None:
+    path = write_npz(replace(a_motion(7000), fps=1.0), tmp_path / "long.npz")
+    for fps in (0, -1.0, float("nan"), "30", 1e7):
+        with pytest.raises(UsageError, match=r"fps .* is out of range"):
+            read_motion(path, fps=fps)  # type: ignore[arg-type]
+    with pytest.raises(UserError, match="over the limit of 200000 frames"):
+        read_motion(path)

@@ -20,8 +20,7 @@ from src.shared.evaluation.suites.selection import (
 )
 from src.shared.evaluation.suites.songs import held_out_songs
 from src.shared.metrics.retrieval import guo_retrieval
-from src.shared.pipelines.motion_generator import PromptSampler
-from src.shared.pipelines.ranking import AudioJudge
+from src.shared.pipelines.ranking import AudioJudge, PromptSampler
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampling
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model
