@@ -5,13 +5,18 @@
     ms.save(wave, "wave.bvh")
 
 What a user can mend is raised as `UserError`, of which `UsageError` is one.
-Every name is imported when it is first used. In a wheel the code lies in `motionsuite.src`; in a
-checkout it lies beside this folder, where `python -m src.cli.tools` finds it, too.
+Every name is imported when it is first used; what has none here lies in `motionsuite.src`, as in
+`from motionsuite.src.shared.pipelines.path import read_path`. In a checkout that is `src`, beside
+this folder, where `python -m src.cli.tools` finds it, too.
 """
 
+import sys
 from importlib import import_module
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -70,6 +75,22 @@ _PLACES = {
 }
 
 
+class _Beside(MetaPathFinder, Loader):
+    """Finds `motionsuite.src…` as the modules of a checkout's `src`, no second ones."""
+
+    def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
+        return ModuleSpec(name, self) if f"{name}.".startswith(f"{__name__}.src.") else None
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        found = import_module(spec.name.removeprefix(f"{__name__}."))
+        spec.loader_state = found.__spec__
+        return found
+
+    def exec_module(self, module: ModuleType) -> None:
+        if module.__spec__ is not None:  # which the import has put in the place of its own
+            module.__spec__ = module.__spec__.loader_state
+
+
 def _root() -> str:
     """Name of the package that holds the code; never a `src` that is somebody else's."""
     here = Path(__file__).resolve().parent
@@ -77,6 +98,7 @@ def _root() -> str:
         found = find_spec("src")
         beside = here.parent / "src" / "__init__.py"
         if found is not None and found.origin and Path(found.origin).resolve() == beside:
+            sys.meta_path.insert(0, _Beside())  # before those who would load them a second time
             return "src"
         __path__.append(str(here.parent))
     return f"{__name__}.src"

@@ -72,6 +72,28 @@ def test_a_checkout_has_one_copy_of_the_code() -> None:
     assert run(ROOT, ROOT, "-c", names) == "True"
 
 
+ANYWHERE = """
+from motionsuite.src.shared.pipelines.path import read_path
+from motionsuite.src.shared.motion.motion import Motion
+import motionsuite as ms, motionsuite.src.shared.motion.motion as m, pickle
+assert ms.Motion is Motion is m.Motion and m.__spec__.name == m.__name__ == Motion.__module__
+assert pickle.loads(b"cmotionsuite.src.shared.motion.motion\\nMotion\\n.") is Motion
+try:
+    import motionsuite.src.shared.nothing
+except ModuleNotFoundError as error:
+    print(error)
+"""
+
+
+@pytest.mark.parametrize("kind", ["wheel", "checkout", "checkout beside a foreign src"])
+def test_whatever_has_no_public_name_is_imported_alike_anywhere(
+    kind: str, wheel: Path, foreign: Path, tmp_path: Path
+) -> None:
+    place = foreign if "foreign" in kind else ROOT if kind == "checkout" else tmp_path
+    said = run(place, wheel if kind == "wheel" else ROOT, "-c", ANYWHERE)
+    assert said.startswith("No module named") and said.endswith("src.shared.nothing'")
+
+
 def test_every_public_name_is_there_and_none_costs_an_import_before() -> None:
     for name in motionsuite.__all__:
         assert getattr(motionsuite, name) is not None
@@ -130,18 +152,21 @@ WAY = [[0.0, 0.0], [0.0, 1.0]]
     [
         (lambda g: g.dance(SONG, seconds=-3), "seconds -3 is out of range; choose from 1 to"),
         (lambda g: g.trajectory(SONG, seconds=float("nan")), "seconds nan is out of range"),
-        (lambda g: g.dance(SONG, WALK, style="proud"), "style .* give follow_path=True"),
-        (lambda g: g.dance(SONG, WALK, follow_path=True, path=WAY), "path does not go with"),
+        (lambda g: g.dance(SONG, WALK, style="proud"), "style 'proud' .* give follow_path=True"),
+        (lambda g: g.dance(SONG, WALK, follow_path=True, path=WAY), "does not go with follow_path"),
         (lambda g: g.dance(SONG, WALK, meter=5), "meter 5 .* whole number from 3 to 4"),
         (lambda g: g.dance(SONG, WALK, num_samples=0), "num_samples 0"),
         (lambda g: g.dance(SONG, 5), "prompt 5"),
         (lambda g: g.trajectory(SONG, style=np.full(8, np.nan)), "no unit vector of 8"),
         (lambda g: g.trajectory(SONG, sampling=None), "sampling is None"),
-        (lambda g: g.timeline(WALK, loop=True, path=WAY), "loop does not go with path"),
+        (lambda g: g.timeline(WALK, loop=True, path=WAY), "does not go with loop"),
         (lambda g: g.timeline(WALK, seconds="x"), "seconds 'x'"),
         (lambda g: g.timeline(WALK, path=WAY, seconds=-3), "seconds -3"),
-        (lambda g: g.timeline([]), "the timeline is empty"),
-        (lambda g: g.timeline(WALK, path=[[0, 0, 0], [0, 1, 2]], seconds=2), "has times"),
+        (lambda g: g.timeline([]), " is empty; give a text"),
+        (
+            lambda g: g.timeline(WALK, path=[[0, 0, 0], [0, 1, 2]], seconds=2),
+            "seconds 2: the path has times",
+        ),
         (lambda g: g.timeline(WALK, path=5), "path: holds no list of points"),
         (lambda g: g.timeline(WALK, path=[[0, 0], [0, "a"]]), "path: point 2: z is 'a'"),
         (lambda g: g.edit(STILL, WALK), "given is a Motion; make it with edit_clip"),
@@ -185,7 +210,7 @@ def test_a_song_is_read_and_told_from_another_by_what_it_is(tmp_path: Path) -> N
     one, two = motionsuite.Song.read(file), motionsuite.Song.read(file)
     assert one != two and one in {one} and one.sha256 == two.sha256
     generator = motionsuite.load("starter", device="cpu")
-    with pytest.raises(UsageError, match="meter is of a file; this Song has"):
+    with pytest.raises(UsageError, match="meter 3: this Song has"):
         generator.dance(one, WALK, meter=3)
 
 

@@ -109,8 +109,11 @@ def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
 # ---------------------------------------------------------------- motions
 
 
-def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") -> Path:
-    """Write one motion in the format that the ending of `path` names; returns the path.
+def write_motion(
+    motion: Motion | MotionTrajectory, path: str | Path, *, names: str = "canonical"
+) -> Path:
+    """Write one motion in the format that the ending of `path` names; returns the path. A
+    trajectory is written as `write_trajectory` does.
 
     Args:
         names: what BVH, GLB and USD call the joints (`rig.SCHEMES`).
@@ -120,6 +123,8 @@ def write_motion(motion: Motion, path: str | Path, *, names: str = "canonical") 
         UserError: the motion has a fault (see `Motion.fault`), or the file cannot be written.
     """
     path = Path(path)
+    if isinstance(motion, MotionTrajectory):
+        return write_trajectory(motion, path)
     name = format_of(path)
     check_motion(motion, path)
     if name in CLIP_EXPORTERS and names != "canonical":
@@ -173,7 +178,7 @@ def check_motion(motion: Any, path: str | Path) -> None:
             " `read_motion` make them" + ", and each a file of its own" * several
         )
     if fault := motion.fault():
-        raise UserError(f"cannot write {path}: {fault}")
+        raise UserError(f"{path}: {fault}")
 
 
 # ---------------------------------------------------------------- trajectories

@@ -211,7 +211,7 @@ def continue_clips(
     last = None if end is None else at_our_rate(end, "end")
     clips = [clip for clip in (first, last) if clip is not None]
     if not clips:
-        raise UsageError("no clip is given; give one to begin with (start), or to end with (end)")
+        raise UsageError(f"start is {start}, end is {end}; give a clip as one of them, or as both")
     for name, clip in (("start", start), ("end", end)):
         if clip is not None and clip.seconds < keep:
             raise UserError(

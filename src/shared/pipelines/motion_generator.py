@@ -341,9 +341,9 @@ class MotionGenerator:
         _check(sampling, num_samples=num_samples, meter=meter, song=seconds, figures=figures,
                follow_path=follow_path, foot_lock=foot_lock, prompt=prompt, tag=tag)  # fmt: skip
         if style is not None and not follow_path:
-            raise UsageError("style is of the path that is followed; give follow_path=True, too")
+            raise UsageError(f"style {style!r} is of a followed path; give follow_path=True")
         if path is not None and follow_path:
-            raise UsageError("path does not go with follow_path; leave one out")
+            raise UsageError(f"path {path!r} does not go with follow_path; leave one out")
         drawn = None if path is None else path_of(path)
         from .body import Performer, PerformerSettings
         from .dance import SongPerformer
@@ -462,7 +462,7 @@ class MotionGenerator:
         _check(sampling, loop=loop, foot_lock=foot_lock)
         drawn = None if path is None else path_of(path)
         if drawn is not None and loop:
-            raise UsageError("loop does not go with path; leave one out")
+            raise UsageError(f"path {path!r} does not go with loop; leave one out")
         if seconds is not None:
             in_range("seconds", seconds, *SECONDS)
         if isinstance(timeline, Path):
@@ -470,12 +470,12 @@ class MotionGenerator:
         if not isinstance(timeline, Timeline):
             timeline = Timeline.of(_texts(timeline), seconds)
         elif seconds is not None and (timeline.timed or drawn is None):
-            raise UsageError("seconds does not go with a timeline, which says how long it is")
+            raise UsageError(f"seconds {seconds:g}: the timeline has times; leave one out")
         if not timeline.passages:
-            raise UsageError("the timeline is empty; give a text, e.g. ['a person walks']")
+            raise UsageError(f"{timeline!r} is empty; give a text, e.g. ['a person walks']")
         if drawn is not None:
             if drawn.times is not None and seconds is not None:
-                raise UsageError("seconds does not go with a path that has times; leave it out")
+                raise UsageError(f"seconds {seconds:g}: the path has times; leave one out")
             return along_path(
                 self.text, timeline, drawn, sampling, seconds=seconds, foot_lock=foot_lock
             )

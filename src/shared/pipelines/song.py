@@ -274,7 +274,9 @@ def analysed(audio: Song | str | Path, meter: int | None = None) -> Song:
     if not isinstance(audio, Song):
         return analyse(audio, meter=meter)
     if meter is not None:
-        raise UsageError(f"meter is of a file; this Song has {audio.beats.meter} beats a bar")
+        raise UsageError(
+            f"meter {meter}: this Song has {audio.beats.meter} beats a bar; leave it out"
+        )
     return audio
 
 

@@ -10,6 +10,7 @@ from src.shared.formats.preview.trajectory import SongTrack
 from src.shared.formats.registry import (
     TRAJECTORY_EXPORTERS,
     export_trajectory,
+    write_motion,
     write_trajectory,
     write_trajectory_preview,
 )
@@ -33,6 +34,9 @@ def test_every_format_writes_by_its_ending(tmp_path: Path, name: str) -> None:
     assert write_trajectory(smooth_trajectory(1, 5), path, title="a song") == path
     assert path.read_bytes().startswith(STARTS[name])
     assert [entry.name for entry in path.parent.iterdir()] == [path.name]
+    written = path.read_bytes()
+    assert write_motion(smooth_trajectory(1, 5), path) == path  # by the public name, too
+    assert name not in ("npz", "csv") or path.read_bytes() == written
 
 
 @pytest.mark.parametrize("name", TRAJECTORY_EXPORTERS)
