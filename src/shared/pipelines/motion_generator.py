@@ -469,7 +469,7 @@ class MotionGenerator:
             timeline = read_timeline(timeline)
         if not isinstance(timeline, Timeline):
             timeline = Timeline.of(_texts(timeline), seconds)
-        elif seconds is not None and (timeline.timed or drawn is None):
+        elif seconds is not None and (drawn is None or (timeline.timed and timeline.passages[1:])):
             raise UsageError(f"seconds {seconds:g}: the timeline has times; leave one out")
         if not timeline.passages:
             raise UsageError(f"{timeline!r} is empty; give a text, e.g. ['a person walks']")
