@@ -2,8 +2,8 @@
 // stitching.py in src/shared/motion/postprocess, which say why.
 
 import {
-  conjugate, continuous, expOf, logOf, matrixOf6d, multiply, product, headingAngle,
-  slerp, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
+  conjugate, continuous, expOf, logOf, matrixOf, matrixOf6d, multiply, product, quaternionOf, headingAngle,
+  scale, slerp, transposed, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
 } from "./rotations.js";
 import {
   decodeFeatures, framesOf, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
@@ -96,30 +96,41 @@ export function restToRest(motion, cuts = null, held = false) {
 
 const FADE = 10;
 
-/** Features with unknown entries moved to meet the known ones; contacts stay as they are. */
+/** Features with unknown entries moved to meet the known ones, whole rotations by turning them; contacts stay as they are. */
 export function blendBoundaries(features, known, fade = FADE) {
-  const frames = framesOf(features), smooth = Float64Array.from(features);
-  const fixed = (t, c) => c >= ROOT + LEFT_CONTACT || known[t * WIDTH + c];
-  for (let column = 0; column < ROOT + LEFT_CONTACT; column++)
-    for (const back of [false, true]) {
-      const at = (t) => (back ? frames - 1 - t : t) * WIDTH + column;
-      const is = (t) => fixed(back ? frames - 1 - t : t, column);
-      for (let last = 0; last + 1 < frames; last++) {
-        if (!is(last) || is(last + 1)) continue;
+  const frames = framesOf(features), smooth = Float64Array.from(features), columns = ROOT + LEFT_CONTACT;
+  for (const back of [false, true]) {
+    const row = (t) => (back ? frames - 1 - t : t) * WIDTH;
+    const is = (t, column) => known[row(t) + column];
+    for (let first = 1; first < frames; first++) {
+      const lengths = new Uint32Array(columns), goals = new Float64Array(columns);
+      for (let column = 0; column < columns; column++) {
+        if (!is(first - 1, column) || is(first, column)) continue;
+        const at = (t) => row(t) + column, steps = [];
         let length = 1;
-        while (last + 1 + length < frames && !is(last + 1 + length)) length++;
-        const first = last + 1, steps = [];
+        while (first + length < frames && !is(first + length, column)) length++;
         if (length > 1) steps.push(smooth[at(first + 1)] - smooth[at(first)]);
-        if (last > 0) steps.push(is(last - 1) ? smooth[at(last)] - smooth[at(last - 1)] : (steps[0] ?? 0));
-        const mean = steps.length ? steps.reduce((a, b) => a + b, 0) / steps.length : 0;
-        const miss = smooth[at(last)] + mean - smooth[at(first)];
+        if (first > 1) steps.push(is(first - 2, column) ? smooth[at(first - 1)] - smooth[at(first - 2)] : (steps[0] ?? 0));
+        goals[column] = smooth[at(first - 1)] + (steps.length ? steps.reduce((a, b) => a + b, 0) / steps.length : 0);
+        lengths[column] = length;
+      }
+      const faded = (length, told) => {
         const reach = first + length === frames ? fade : Math.min(fade, Math.max(1, length >> 1));
-        for (let i = 0; i < length; i++) {
-          const x = Math.min(i / reach, 1);
-          smooth[at(first + i)] += miss * (1 - x ** 3 * (x * (6 * x - 15) + 10));
+        for (let i = 0; i < Math.min(length, reach); i++) told(row(first + i), 1 - (i / reach) ** 3 * ((i / reach) * ((6 * i) / reach - 15) + 10));
+      };
+      for (let start = 0; start < columns; start += 6) {
+        const own = lengths.subarray(start, start + 6);
+        if (start < ROOT && own[0] && own.every((length) => length === own[0])) {
+          const lack = multiply(matrixOf6d(goals, start), transposed(matrixOf6d(smooth, row(first) + start))), turn = logOf(quaternionOf(lack));
+          faded(own[0], (at, weight) => write6d(multiply(matrixOf(expOf(scale(turn, weight))), matrixOf6d(smooth, at + start)), smooth, at + start));
+        } else for (const [i, length] of own.entries()) {
+          if (!length) continue;
+          const miss = goals[start + i] - smooth[row(first) + start + i];
+          faded(length, (at, weight) => { smooth[at + start + i] += miss * weight; });
         }
       }
     }
+  }
   return Float32Array.from(smooth);
 }
 

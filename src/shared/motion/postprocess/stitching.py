@@ -15,9 +15,14 @@ from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
 from ..filters import smoothed
 from ..motion import Motion
 from ..rotations import (
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
     quaternion_continuous,
+    quaternion_exp,
+    quaternion_log,
     quaternion_multiply,
     quaternion_to_matrix,
+    rotation_6d_to_matrix,
     turn_about_y,
     yaw_quaternion,
 )
@@ -94,7 +99,8 @@ def blend_cuts(features: Tensor, cuts: Sequence[int]) -> Tensor:
 
 
 def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
-    """Blend the boundaries behind fixed entries [T,N] in place."""
+    """Blend the boundaries behind fixed entries [T,N] in place: whole rotations by turning them,
+    single channels by adding to them."""
     starts = fixed[:-1] & ~fixed[1:]  # T-1 N, the next frame is the first free one
     for last in np.flatnonzero(starts.any(1)):
         columns = np.flatnonzero(starts[last])
@@ -103,10 +109,28 @@ def _meet(values: np.ndarray, fixed: np.ndarray, fade: int) -> None:
         for length in np.unique(lengths):
             same = columns[lengths == length]
             part = values[last + 1 : last + 1 + length, same]
-            miss = _expected(values[: last + 1, same], fixed[: last + 1, same], part) - part[0]
+            goal = _expected(values[: last + 1, same], fixed[: last + 1, same], part)
             open_ended = last + 1 + length == len(values)
             reach = fade if open_ended else min(fade, max(1, length // 2))
-            values[last + 1 : last + 1 + length, same] += _weights(length, reach)[:, None] * miss
+            weights = _weights(length, reach)
+            made = part + weights[:, None] * (goal - part[0])
+            whole = np.isin(np.arange(ROOT_ROW * 6), same).reshape(-1, 6).all(1)
+            if whole.any():
+                at = np.searchsorted(same, np.arange(ROOT_ROW * 6).reshape(-1, 6)[whole])  # rows 6
+                made[:reach, at] = _turned(part[:reach, at], goal[at], weights[:reach])
+            values[last + 1 : last + 1 + length, same] = made
+
+
+def _turned(rows: np.ndarray, goal: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Rotations [T,R,6] turned by what the first ones lack to their goals [R,6], weighted [T].
+
+    On the way between rotations that lie far apart columns of 6D nearly vanish, and what is made of
+    them jumps.
+    """
+    rotations = rotation_6d_to_matrix(torch.from_numpy(rows))
+    lack = rotation_6d_to_matrix(torch.from_numpy(goal)) @ rotations[0].swapaxes(-1, -2)
+    share = torch.from_numpy(weights)[:, None, None] * quaternion_log(matrix_to_quaternion(lack))
+    return matrix_to_rotation_6d(quaternion_to_matrix(quaternion_exp(share)) @ rotations).numpy()
 
 
 def _expected(before: np.ndarray, fixed: np.ndarray, after: np.ndarray) -> np.ndarray:

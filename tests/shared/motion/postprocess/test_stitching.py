@@ -1,5 +1,6 @@
 """No jump where known frames end, and nothing known moves; cuts are softened."""
 
+import numpy as np
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,6 +10,14 @@ from src.shared.motion.postprocess.stitching import (
     FADE,
     blend_boundaries,
     blend_cuts,
+)
+from src.shared.motion.rotations import (
+    matrix_to_quaternion,
+    matrix_to_rotation_6d,
+    quaternion_exp,
+    quaternion_log,
+    quaternion_to_matrix,
+    rotation_6d_to_matrix,
 )
 
 SHAPE = (23, 6)
@@ -31,9 +40,11 @@ def prefix(frames: int, known: int) -> torch.Tensor:
 def test_a_jump_is_taken_up(jump: float, known: int, frames: int) -> None:
     """The step across the border is that of its neighbours; the fade is spread over `FADE`."""
     features = ramp(frames, jump, at=known)
-    smooth = blend_boundaries(features, prefix(frames, known))
-    motion = torch.ones(SHAPE, dtype=torch.bool)
-    motion[ROOT_ROW, LEFT_CONTACT:] = False
+    mask = prefix(frames, known)
+    mask[:, :ROOT_ROW] = True  # no rotations
+    smooth = blend_boundaries(features, mask)
+    motion = torch.zeros(SHAPE, dtype=torch.bool)
+    motion[ROOT_ROW, :LEFT_CONTACT] = True
     torch.testing.assert_close(smooth[:known], features[:known])
     torch.testing.assert_close(smooth[:, ~motion], features[:, ~motion])
     end = known + FADE
@@ -49,11 +60,35 @@ def test_both_ends_of_a_gap_meet() -> None:
     features[20:40] += 0.3
     mask = torch.ones(60, *SHAPE, dtype=torch.bool)
     mask[20:40] = False
+    mask[:, :ROOT_ROW] = True  # no rotations
     smooth = blend_boundaries(features, mask)
-    steps = smooth[:, 3, 2].diff()
+    steps = smooth[:, ROOT_ROW, 2].diff()
     assert float(steps[[19, 39]].sub(0.01).abs().max()) < 1e-4
     assert float((smooth - ramp(60))[:20].abs().max()) < 1e-6
     torch.testing.assert_close(smooth[29:31], features[29:31], rtol=0, atol=0.01)
+
+
+@given(
+    angle=st.floats(-3.0, 3.0),
+    axis=st.lists(st.floats(-1, 1), min_size=3, max_size=3).filter(
+        lambda v: np.hypot(*v[:2]) > 0.1
+    ),
+    back=st.booleans(),
+)
+def test_a_turned_joint_turns_back_evenly(angle: float, axis: list[float], back: bool) -> None:
+    """By however much it is turned, a whole rotation goes about one axis, at the fade's pace."""
+    turn = torch.tensor(axis, dtype=torch.float64)
+    vectors = torch.zeros(40, 3, dtype=torch.float64)
+    vectors[20:] = angle * turn / turn.norm()
+    features = torch.zeros(40, *SHAPE)
+    rotations = quaternion_to_matrix(quaternion_exp(vectors))
+    features[:, 4] = matrix_to_rotation_6d(rotations).float()
+    known = prefix(40, 20) if not back else ~prefix(40, 20)
+    smooth = rotation_6d_to_matrix(blend_boundaries(features, known)[:, 4].double())
+    steps = matrix_to_quaternion(smooth[:-1].swapaxes(-1, -2) @ smooth[1:])
+    turned = quaternion_log(steps).norm(dim=-1)
+    assert float(turned.max()) <= abs(angle) * 1.9 / FADE + 1e-3
+    assert abs(float(turned.sum()) - abs(angle)) < 1e-2
 
 
 @given(
