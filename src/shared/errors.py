@@ -52,7 +52,8 @@ def in_range(name: str, value: Any, least: float, most: float, *, whole: bool = 
     """
     kind: Any = Integral if whole else Real  # mypy knows no order of numbers in the abstract
     if isinstance(value, bool) or not (isinstance(value, kind) and least <= value <= most):
-        given, low, high = map(_digits, (value, least, most))
+        given = repr(value) if whole else _digits(value)
+        low, high = map(_digits, (least, most))
         what = "a whole number from" if whole else "from"
         raise UsageError(f"{name} {given} is out of range; choose {what} {low} to {high}")
 

@@ -51,6 +51,7 @@ class Sampling:
                 object.__setattr__(self, name, int(value))  # NumPy's wrap round
         if self.guidance_scale is not None:
             in_range("guidance-scale", self.guidance_scale, 0.0, 1000.0)
+            object.__setattr__(self, "guidance_scale", float(self.guidance_scale))
 
 
 # ---------------------------------------------------------------- conditions, guidance

@@ -58,9 +58,12 @@ class Motion:
         frames = (np.shape(self.quaternions) or (0,))[0]
         for name, shape in shapes.items():
             array: Any = getattr(self, name)
-            if not isinstance(array, np.ndarray) or array.shape != (frames, *shape):
-                given = f"{type(array).__name__} of {list(np.shape(array))}"
-                return f"the motion's {name} are {given}; give an array of {[frames, *shape]}"
+            numbers = isinstance(array, np.ndarray) and array.dtype.kind in "fiu"
+            if not numbers or array.shape != (frames, *shape):
+                kind = getattr(array, "dtype", type(array).__name__)
+                given = f"{kind} of {list(np.shape(array))}"
+                wanted = [frames, *shape]
+                return f"the motion's {name} are {given}; give numbers in an array of {wanted}"
             if not np.isfinite(array).all():
                 return (
                     f"the motion's {name} hold NaN or infinite values; mend them, or train the"

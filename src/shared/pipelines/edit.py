@@ -84,7 +84,7 @@ def chosen_joints(names: Collection[str]) -> set[str]:
         UsageError: a name is unknown; names the nearest one.
     """
     known = [*GROUPS, *JOINT_INDEX]
-    names = [names] if isinstance(names, str) else names
+    names = names if isinstance(names, Collection) and not isinstance(names, str) else [names]
     for name in names:
         if name not in known:
             raise UsageError(

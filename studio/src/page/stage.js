@@ -28,6 +28,7 @@ export class Stage {
     this.camera = new PerspectiveCamera(38, 1, 0.05, 200);
     this.controls = new OrbitControls(this.camera, canvas);
     Object.assign(this.controls, { enableDamping: true, dampingFactor: 0.12, maxPolarAngle: 1.53, minDistance: 1, maxDistance: 30 });
+    this.controls.addEventListener("change", () => { this.stale = true; });
     this.bodies = [];
     this.shared = meshOf(body);
     this.addRoom();
@@ -184,7 +185,8 @@ export class Stage {
       this.controls.target.add(way);
       this.camera.position.add(way);
     }
-    if (!this.controls.update() && !this.stale) return;
+    this.controls.update();
+    if (!this.stale) return;
     this.stale = false;
     const { x, z } = this.controls.target;
     this.sun.target.position.set(x, 0, z);
