@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..shared import environment
-from ..shared.errors import UsageError, UserError
+from ..shared.errors import UsageError, UserError, has_words
 from ..shared.io.files import read_text
 from ..shared.io.storage import Place, place
 from . import generate_files as files
@@ -413,8 +413,8 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
         raise UserError(f"--prompts {path}: holds no prompt; write one a line")
     seconds: list[float | None] = []
     for number, row in table:
-        if not row["prompt"].strip() or "more" in row:
-            what = "has too many cells" if "more" in row else "has no prompt"
+        if not has_words(row["prompt"]) or "more" in row:
+            what = "has too many cells" if "more" in row else "has no prompt of words"
             raise UserError(f"--prompts {path}, line {number}: {what}; mend it")
         try:
             long = float(row["seconds"]) if row.get("seconds", "").strip() else None
@@ -431,10 +431,12 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
 
 
 def checked_prompts(prompts: list[str] | None) -> list[str]:
-    """The prompts without stray blanks; at least one, none empty."""
+    """The prompts without stray blanks; at least one, none without words."""
     cleaned = [" ".join(text.split()) for text in prompts or []]
     if not cleaned or not all(cleaned):
         raise UsageError('--prompt is missing or empty; give one, e.g. --prompt "a person waves"')
+    if wordless := [text for text in cleaned if not has_words(text)]:
+        raise UsageError(f"prompt {wordless[0]!r} holds no word; say in a few what is done")
     return cleaned
 
 

@@ -44,6 +44,11 @@ class UsageError(UserError):
     exit_code = 2
 
 
+def has_words(text: str) -> bool:
+    """Whether a text holds a letter or digit: dots and emoji say nothing of a motion."""
+    return any(map(str.isalnum, text))
+
+
 def in_range(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
     """Refuse what is no number from `least` to `most`; NaN is none, and no bool.
 

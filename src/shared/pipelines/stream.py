@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import UsageError, in_range
+from ..errors import UsageError, has_words, in_range
 from ..metrics.measurements import ends_at_rest
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -259,7 +259,7 @@ def check_text(name: str, text: Any) -> None:
         UsageError: naming it.
     """
     whole = isinstance(text, str) and text.encode(errors="ignore").decode() == text
-    if not (whole and any(map(str.isalnum, text))):
+    if not (whole and has_words(text)):
         raise UsageError(f"{name} {text!r} holds no word; say in a few what is done")
 
 

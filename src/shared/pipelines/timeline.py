@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..config_loader import did_you_mean, parse_yaml
-from ..errors import UsageError, UserError
+from ..errors import UsageError, UserError, has_words
 from ..io.files import read_text
 from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
@@ -143,8 +143,10 @@ def _entry(row: Any, where: str) -> Entry:
                 f" {', '.join(KEYS)}"
             )
     text = " ".join(str(row.get("text") or "").split())
-    if not text:
-        raise UserError(f"{where} has no text; say what is done, e.g. text: a person waves")
+    if not has_words(text):
+        raise UserError(
+            f"{where} has no text of words; say what is done, e.g. text: a person waves"
+        )
     start, end = (_seconds(row, key, where) for key in ("start", "end"))
     if end - start < SHORTEST - 1e-6:
         raise UserError(

@@ -251,7 +251,7 @@ class Page {
     if (!this.client) return;
     if (this.making) { this.again = true; return; }
     const { asked } = this, { takes, seed, ...scene } = asked;
-    const empty = scene.blocks.findIndex(({ text }) => !text.trim());
+    const empty = scene.blocks.findIndex(({ text }) => !/[\p{L}\p{N}]/u.test(text));
     if (empty >= 0 && !scene.clip) {
       this.select(empty);
       this.tell("Say in a few words what the body does.", "warning");
@@ -452,7 +452,7 @@ class Page {
     canvas.addEventListener("pointercancel", (event) => {
       if (event.pointerId !== pressed?.pointerId) return;
       pressed = this.line = null;
-      this.stage?.showPath(this.scene.path);
+      this.stage?.showPath(this.clip ? null : this.scene.path);
     });
     canvas.addEventListener("pointerup", (event) => {
       if (event.pointerId !== pressed?.pointerId) return;
