@@ -166,7 +166,11 @@ class DistillTask(Task):
         kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
                 "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
                 "captured_share", "languages"}  # fmt: skip
-        made_of = {"kept": f"aims, {SPACING}", **self.identity, **config.model_dump(mode="json", include=kept)}
+        made_of = {
+            "kept": f"aims, {SPACING}",
+            **self.identity,
+            **config.model_dump(mode="json", include=kept),
+        }
         made = {"made-of": f"{mix_seed(str(sorted(made_of.items()))):x}"}
         for number in range(config.pair_batches):
             file = self._file("train", number)
