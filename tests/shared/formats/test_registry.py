@@ -82,7 +82,10 @@ def test_motions_that_cannot_be_shown_are_refused(tmp_path: Path, name: str) -> 
         ({"fps": 0.0}, "fps is 0.0"),
         ({"fps": float("nan")}, "fps is nan"),
         ({"text": None}, "text is None"),
-        ({"contacts": np.ones((2, 2), np.float32)}, r"contacts are ndarray of \[2, 2\]; give an"),
+        (
+            {"contacts": np.ones((2, 2), np.float32)},
+            r"contacts are float32 of \[2, 2\]; give numbers",
+        ),
         ({"root_position": [[0.0, 0.0, 0.0]] * 3}, r"root_position are list of \[3, 3\]"),
         ({"quaternions": np.zeros((3, 22, 4), np.float32)}, "a quaternion of zeros"),
         ({"quaternions": None}, "quaternions are NoneType"),

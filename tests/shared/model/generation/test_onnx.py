@@ -110,8 +110,15 @@ def test_graphs_compute_what_the_networks_do(
         read = onnx.load(tmp_path / "onnx" / ADAPTED_GRAPH, load_external_data=False).graph
         assert not [each.name for each in read.initializer if "adapters" in each.name]
     assert card.graphs.keys() == {TEXT_GRAPH, *graphs, *(READY + graph for graph in graphs)}
+    opened = {
+        graph: (
+            open_graph(tmp_path / "onnx", graph, 1),
+            opened_ready(tmp_path / "onnx", graph, card.graphs[READY + graph].weights),
+        )
+        for graph in graphs
+    }
     for (graph, heard), frames in product(graphs.items(), (8, 61)):
-        session = open_graph(tmp_path / "onnx", graph, 1)
+        session, ready = opened[graph]
         x = torch.randn(3, frames, 23, 6)
         mask = torch.arange(frames) < torch.tensor([frames, frames, frames - 3])[:, None]
         known = torch.rand(x.shape) < 0.1
@@ -126,8 +133,7 @@ def test_graphs_compute_what_the_networks_do(
         assert feed.keys() == card.graphs[graph].inputs.keys()
         arrays = {name: value.numpy() for name, value in feed.items()}
         (found,) = session.run(None, arrays)
-        opened = opened_ready(tmp_path / "onnx", graph, card.graphs[READY + graph].weights)
-        np.testing.assert_allclose(opened.run(None, arrays)[0], found, atol=1e-5)
+        np.testing.assert_allclose(ready.run(None, arrays)[0], found, atol=1e-5)
         wanted = generator.denoiser(
             x,
             t,
