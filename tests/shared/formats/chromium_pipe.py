@@ -22,6 +22,8 @@ FLAGS = (
     "--autoplay-policy=no-user-gesture-required",
     "--remote-debugging-pipe",
 )
+NO_WEBGL = ("--disable-gpu", "--disable-3d-apis")
+WEBGL = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist")
 # The browser reads from descriptor 3 and writes to 4. Either may be in the way: copies above first.
 SHIM = """
 import fcntl, os, sys
@@ -52,11 +54,13 @@ class Browser:
         size: tuple[int, int] = (700, 500),
         ready: str = "typeof cards === 'object'",
         flags: tuple[str, ...] = (),
+        webgl: bool = False,
     ) -> None:
         self.problems: list[str] = []
         self.requests: list[str] = []
         self._count = 0
-        options = (*FLAGS, *flags, f"--window-size={size[0]},{size[1]}")
+        base = (*(each for each in FLAGS if each not in NO_WEBGL), *WEBGL) if webgl else FLAGS
+        options = (*base, *flags, f"--window-size={size[0]},{size[1]}")
         self._start(*options, f"--user-data-dir={profile}")
         targets = self.call("Target.getTargets")["targetInfos"]
         page = next(target["targetId"] for target in targets if target["type"] == "page")

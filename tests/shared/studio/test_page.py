@@ -744,3 +744,22 @@ def test_an_opened_clip_is_shown_and_has_no_way_on_the_floor(
     opened(browser, "still.bvh", data)
     browser.evaluate("document.getElementById('close-clip').click()")
     assert text_of(browser, "status").startswith("Changed") == browser.evaluate(stale)
+
+
+@BROWSER
+def test_a_resting_stage_is_drawn_where_its_camera_moves_alone(page: Path, tmp_path: Path) -> None:
+    ready = "typeof studio === 'object' && Boolean(studio.stage)"
+    with Browser(page.as_uri(), tmp_path, (500, 400), ready, webgl=True) as shown:
+        shown.evaluate("studio.make = async () => {}")  # nothing moves
+        shown.wait("studio.stage.stale === false")
+        shown.evaluate(
+            "globalThis.drawn = 0; { const { renderer } = studio.stage, draw = renderer.render;"
+            " renderer.render = function (...all) { drawn++; return draw.apply(this, all); }; } 0"
+        )
+        shown.evaluate("new Promise((resolve) => setTimeout(resolve, 500))")
+        assert shown.evaluate("drawn") == 0
+        shown.evaluate(
+            "document.getElementById('stage').dispatchEvent("
+            "new WheelEvent('wheel', { deltaY: 120, clientX: 300, clientY: 80, cancelable: true }))"
+        )
+        shown.wait("drawn > 0", 10)
