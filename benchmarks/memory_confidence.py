@@ -23,8 +23,9 @@ from torch import Tensor
 from src.shared.audio.song import analyse_sound
 from src.shared.audio.sound import sound_from_samples
 from src.shared.audio.synthetic import SongSpec, render_song
+from src.shared.config_audio import MemoryConfig
 from src.shared.memory.build import cut_at_bars
-from src.shared.memory.index import MemoryConfig, MemoryIndex
+from src.shared.memory.index import MemoryIndex
 from src.shared.memory.query import BEATLESS, retrieve
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.motion.trajectory import FPS

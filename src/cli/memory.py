@@ -15,7 +15,8 @@ from .generate_request import refuse_with
 from .options import Command
 
 if TYPE_CHECKING:
-    from ..shared.memory.index import MemoryConfig, MemoryIndex
+    from ..shared.config_audio import MemoryConfig
+    from ..shared.memory.index import MemoryIndex
     from ..shared.memory.query import Hit, QueryResult
     from ..shared.model.audio.shared_space import SharedSpace
 
@@ -249,8 +250,8 @@ def load_settings(**given: Any) -> "MemoryConfig":
     Raises:
         UsageError: a value out of range.
     """
+    from ..shared.config_audio import MemoryConfig
     from ..shared.config_loader import load_config, load_yaml, packaged_config
-    from ..shared.memory.index import MemoryConfig
 
     path = packaged_config("memory.yaml")
     overrides = [f"{name}={value}" for name, value in given.items() if value is not None]

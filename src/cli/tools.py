@@ -6,7 +6,6 @@ Nothing heavy is imported here: `--help` and shell completion answer at once.
 
 import sys
 from collections.abc import Callable
-from importlib import import_module
 from pathlib import Path
 from typing import Annotated
 
@@ -43,18 +42,18 @@ app = typer.Typer(
     epilog=f'Start here:  {PROGRAM} generate --prompt "a person waves"',
 )
 
-STAGES = {
-    "clip": ("train_clip", "The text tower and the motion tower that share one space."),
-    "generation": ("train_generation", "Motion from text, behind the text tower of `clip`."),
-    "evaluator": ("train_evaluator", "The independent judge that `evaluate` asks."),
-    "text": ("train_text", "A text tower that bears wordings it never saw."),
-    "action": ("train_action", "A new action for a trained text model, from a few clips."),
-    "distill": ("train_distill", "A text model of one or a few steps, from one of many."),
-    "audio": ("train_audio", "Paths from music."),
-    "decoder": ("train_decoder", "The decoder behind `audio`."),
-    "finetune-e2e": ("finetune_e2e", "`audio` and `decoder` through the sampler, as one."),
-    "audio-tower": ("train_audio_tower", "Sound in the space of `clip`."),
-    "memory": ("train_memory", "An audio model that hears a memory."),
+TRAINED = {  # what the stages of `train.launch` make, told without reading their settings
+    "clip": "The text tower and the motion tower that share one space.",
+    "generation": "Motion from text, behind the text tower of `clip`.",
+    "evaluator": "The independent judge that `evaluate` asks.",
+    "text": "A text tower that bears wordings it never saw.",
+    "action": "A new action for a trained text model, from a few clips.",
+    "distill": "A text model of one or a few steps, from one of many.",
+    "audio": "Paths from music.",
+    "decoder": "The decoder behind `audio`.",
+    "finetune-e2e": "`audio` and `decoder` through the sampler, as one.",
+    "audio-tower": "Sound in the space of `clip`.",
+    "memory": "An audio model that hears a memory.",
 }
 
 train = typer.Typer(
@@ -65,13 +64,14 @@ train = typer.Typer(
 )
 
 
-def stage(module: str) -> Callable[[typer.Context], None]:
+def stage(name: str) -> Callable[[typer.Context], None]:
     """The command that hands its arguments, --help among them, to a stage's own."""
 
     def run(context: typer.Context) -> None:
         """All of it is the stage's to read."""
-        app = import_module(f"..train.{module}", __package__).app
-        app(context.args, prog_name=context.command_path)
+        from ..train.launch import STAGES
+
+        STAGES[name].app()(context.args, prog_name=context.command_path)
 
     return run
 
@@ -122,8 +122,8 @@ for command in (
     kind = SuiteCommand if command is evaluate else Command
     app.command(cls=kind)(with_quiet(guarded(command)))
 UNREAD = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
-for name, (module, about) in STAGES.items():
-    train.command(name, help=about, context_settings=UNREAD)(guarded(stage(module)))
+for name, about in TRAINED.items():
+    train.command(name, help=about, context_settings=UNREAD)(guarded(stage(name)))
 app.add_typer(memory, name="memory")
 app.add_typer(models, name="models")
 app.add_typer(train, name="train")

@@ -4,7 +4,8 @@ from typing import ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
-from .config_schema import Config, DiffusionConfig, Printed, only
+from .config_schema import Config, DiffusionConfig, Printed, TrainConfig, only
+from .environment import DATA_DIR, DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
 
 NORM_GROUPS = 32  # of every GroupNorm in UNet1D (TECH 3.1.3)
 
@@ -220,4 +221,113 @@ class AudioTowerConfig(Config):
     def _check(self) -> Self:
         if self.dim % self.num_heads:
             raise ValueError(f"num-heads {self.num_heads} must divide dim {self.dim}")
+        return self
+
+
+class MemoryConfig(Config):
+    """Settings of `MPMService` and `memory build` (memory.yaml)."""
+
+    folder: str = ""  # or address, that `memory build` wrote
+    bars: int = Field(2, ge=1)  # length of a phrase
+    min_frames: int = Field(24, ge=8)  # shorter rests at the ends of a song are left out
+    top_k: int = Field(8, ge=1)
+    temperature: float = Field(0.07, gt=0)  # of the softmax over similarities of the hits
+    key: Literal["audio", "motion"] = "audio"  # which side of a phrase is compared with the query
+    phase_weight: float = Field(0.1, ge=0)  # similarity that a phrase half a bar off loses
+    deadline: float = Field(2.0, gt=0)  # seconds after which a query is answered by "nothing"
+    workers: int = Field(4, ge=1)  # threads that search
+    library_above: int = Field(50_000, ge=0)  # phrases; beyond, search by library if installed
+
+
+class PhraseConfig(TrainConfig):
+    """What every audio stage shares."""
+
+    variables: ClassVar = {"data": DATA_DIR}
+    target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
+    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
+
+
+class TrainAudioConfig(PhraseConfig):
+    """train_audio.yaml."""
+
+    init: str | None = None  # a trained model, by name or folder, to go on from
+    velocity_weight: float = Field(1.0, ge=0)  # of the error of frame differences, m/s
+    prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
+    prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most
+    style_share: float = Field(0.5, ge=0, le=1)  # windows whose style is known
+
+
+class TrainDecoderConfig(PhraseConfig):
+    """train_decoder.yaml."""
+
+    variables: ClassVar = PhraseConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
+    audio: str = "runs/audio"  # folder written by train_audio
+    noise: tuple[float, float] = (0.03, 1.0)  # least and most, times the UNet's error
+    correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise
+    start_weight: float = Field(0.1, ge=0)  # of the guessed first bar phase
+    losses: DecoderLossConfig = DecoderLossConfig()
+
+    @model_validator(mode="after")
+    def _check_limits(self) -> Self:
+        for key, (low, high) in (("noise", self.noise), ("correlation", self.correlation)):
+            if not 0 < low <= high:
+                raise ValueError(f"{key} [{low}, {high}] must be two numbers above 0, least first")
+        return self
+
+
+class TrainMemoryConfig(TrainAudioConfig):
+    """train_memory.yaml."""
+
+    variables: ClassVar = TrainAudioConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
+    audio: str = "starter-audio"  # the model that learns
+    space: str = ""  # where the memory's shared space is now; "" = where it was built with
+    memory: MemoryConfig = MemoryConfig()
+    part: MemoryConditionConfig = MemoryConditionConfig()  # sizes of what is added
+    memory_dropout: float = Field(0.1, ge=0, lt=1)  # windows that remember nothing
+    base_learning_rate: float = Field(0.0, ge=0)  # of what was there before; 0 = it rests
+
+
+class TrainAudioTowerConfig(PhraseConfig):
+    """train_audio_tower.yaml."""
+
+    clip: str = "runs/clip"  # folder written by train_clip
+    tower: AudioTowerConfig = AudioTowerConfig()  # its embed-dim is that of the CLIP model
+    bars: int = Field(2, ge=1)  # of a window
+    windows: int = Field(2, ge=1)  # of each phrase in a batch
+    copies: int = Field(2, ge=0)  # of each phrase, faster or slower, sound and motion together
+    stretch: float = Field(0.12, ge=0, lt=0.5)  # by how much at most
+    temperature: float = Field(0.1, gt=0)  # start of the learned logit scale
+    cosine_weight: float = Field(0.0, ge=0)
+
+
+FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_rate")
+
+
+class FinetuneE2eConfig(TrainAudioConfig):
+    """finetune_e2e.yaml."""
+
+    variables: ClassVar = TrainAudioConfig.variables | {
+        "checkpoint": DIFFUSION_CHECKPOINT, "decoder-checkpoint": DECODER_CHECKPOINT
+    }  # fmt: skip
+    printed: ClassVar = TrainAudioConfig.printed | {"num-epochs": Printed("epochs")}
+    checkpoint: str = "runs/decoder"  # folder of train_decoder or train_audio: the UNet
+    decoder_checkpoint: str | None = None  # folder whose decoder is taken; None = the same
+    epochs: int = Field(50, ge=1)  # passes over the phrases
+    patience: int = Field(10, ge=1)  # epochs without a better validation total
+    lr_diffusion: float = Field(1e-6, gt=0)
+    lr_decoder: float = Field(5e-5, gt=0)
+    diffusion_weight: float = Field(0.1, ge=0)
+    decoder_weight: float = Field(1.0, ge=0)
+    temporal_weight: float = Field(10.0, ge=0)
+    ddim_steps: int = Field(5, ge=1)  # of the sampler with gradients
+    data_noise: float = Field(0.5, gt=0, le=1)  # ground truth is noised up to this share of steps
+    losses: DecoderLossConfig = DecoderLossConfig()
+    temporal: TemporalLossConfig = TemporalLossConfig()
+
+    @model_validator(mode="after")
+    def _check_steps(self) -> Self:
+        for name in FROM_EPOCHS:
+            if name in self.model_fields_set:
+                instead = "lr-diffusion and lr-decoder" if name == "learning_rate" else "epochs"
+                raise ValueError(f"{name.replace('_', '-')} has no place here; give {instead}")
         return self

@@ -338,3 +338,59 @@ class TrainGenerationConfig(TrainConfig):
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     validation_prompts: tuple[str, ...] = ("a person walks forward", "a person waves")
+
+
+class TrainEvaluatorConfig(TrainConfig):
+    """train_evaluator.yaml."""
+
+    word_dropout: float = Field(0.1, ge=0, lt=1)
+    noise: float = Field(0.05, ge=0)  # on training inputs, in standard deviations
+    hidden_size: int = Field(128, ge=8, multiple_of=2)
+    embed_dim: int = Field(32, ge=4)
+
+
+class TrainTextConfig(TrainTowerConfig):
+    """train_text.yaml."""
+
+    clip: str | None = "runs/clip"  # folder of train_clip, or a generator; null: from nothing
+    generator: str | None = None  # a generator that gets the hardened tower in the output
+    captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
+    word_dropout: float = Field(0.05, ge=0, lt=1)
+    written: float = Field(0.5, ge=0, le=1)  # least share of hand-written ones, where there are
+    outside: float = Field(0.1, ge=0, lt=1)  # share of draws that ask for nothing known
+    babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
+    scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
+    unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
+    tower: Literal["same", "pairs"] = "same"  # "pairs": a new one of token pairs, the same places
+    least_captions: int = Field(3, ge=1)  # of a token or pair that such a tower knows
+    choice_weight: float = Field(0.1, gt=0)  # of the classification term when hardening
+    without: tuple[str, ...] = ()  # actions of the clips that it is not taught
+
+
+class TrainActionConfig(TrainConfig):
+    """train_action.yaml."""
+
+    init: str = "starter"
+    rank: int = Field(16, ge=1)  # of the adapters
+    condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
+    losses: LossWeights = LossWeights()
+    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
+    tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
+    actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
+    styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
+    min_clips: int = Field(1, ge=1)  # of a combination of labels, to be learned
+
+
+class TrainDistillConfig(TrainConfig):
+    """train_distill.yaml."""
+
+    init: str = "starter"  # the teacher
+    student: str | None = None  # taught before, to go on from; None = it begins as the teacher
+    teacher_steps: int = Field(8, ge=1)
+    student_steps: int = Field(2, ge=1)
+    pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
+    first_share: float = Field(0.5, ge=0, le=1)  # of the pairs that begin with noise alone
+    condition_dropout: float = Field(0.05, ge=0, lt=1)  # motions of no text, which edits ask for
+    tag_dropout: float = Field(0.8, ge=0, le=1)
+    losses: LossWeights = LossWeights()
+    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints

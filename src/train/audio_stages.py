@@ -8,22 +8,19 @@ from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_audio import AudioNetworkConfig, PhraseConfig
 from ..shared.config_loader import NETWORK_PREFIX, dump_config, load_config
-from ..shared.config_schema import TrainConfig
 from ..shared.data.pairing.music import open_music
 from ..shared.data.pairing.prepare_audio import PairOptions, prepare_audio
 from ..shared.data.phrases.dataset import EmptySplit, MotionPhraseDataset, PhraseBatch, PhraseItem
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import SYNTHETIC
-from ..shared.environment import DATA_DIR
 from ..shared.errors import UsageError
 from ..shared.formats.registry import write_trajectory
 from ..shared.io.files import sole_writer
@@ -38,14 +35,6 @@ from .run_log import announce, console
 from .task import Part, Task, generator
 
 SYNTHETIC_SONGS = 40
-
-
-class PhraseConfig(TrainConfig):
-    """What every audio stage shares."""
-
-    variables: ClassVar = {"data": DATA_DIR}
-    target_frames: int = Field(180, ge=16)  # of a window; sampling makes windows of this length
-    num_phrases: int | None = Field(None, ge=1)  # take only the first so many
 
 
 def open_phrases(

@@ -16,19 +16,17 @@ import copy
 import math
 import os
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any
 
 import torch
-from pydantic import Field, model_validator
 from torch import Tensor, nn
 from torch.utils.checkpoint import checkpoint
 
-from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig, TemporalLossConfig
-from ..shared.config_schema import Printed
+from ..shared.config_audio import FROM_EPOCHS, AudioNetworkConfig, FinetuneE2eConfig
 from ..shared.data.phrases.dataset import PhraseBatch
 from ..shared.device import autocast
-from ..shared.environment import DECODER_CHECKPOINT, DIFFUSION_CHECKPOINT
 from ..shared.io.files import write_json, write_text
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.decoder import DecoderLoss, TemporalCoherenceLoss, total
@@ -41,63 +39,23 @@ from ..shared.model.diffusion import (
 )
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
 from ..shared.pipelines.song_sampler import SPARE
+from . import audio_stages
 from .audio_stages import (
     add_shares,
     bar_phase_at_start,
-    network_of,
     open_phrases,
     save_noted,
     true_trajectory,
     whole_windows,
 )
-from .launch import Stage
+from .launch import STAGES
 from .run_log import Epoch, as_logged, best_epoch, console, read_epochs, results_table
 from .task import generator, to_device
-from .train_audio import AudioBatch, AudioTask, TrainAudioConfig, audio_losses
+from .train_audio import AudioBatch, AudioTask, audio_losses
 from .train_generation import spread_timesteps
 
 CONTINUOUS = 0.95  # smallest dot of neighbouring quaternions that passes (ruling 18)
 BEST = "best"  # folder in the output, of the best weights so far
-FROM_EPOCHS = ("steps", "log_every", "validate_every", "save_every", "learning_rate")
-
-
-class FinetuneE2eConfig(TrainAudioConfig):
-    """finetune_e2e.yaml."""
-
-    variables: ClassVar = TrainAudioConfig.variables | {
-        "checkpoint": DIFFUSION_CHECKPOINT, "decoder-checkpoint": DECODER_CHECKPOINT
-    }  # fmt: skip
-    printed: ClassVar = TrainAudioConfig.printed | {"num-epochs": Printed("epochs")}
-    checkpoint: str = "runs/decoder"  # folder of train_decoder or train_audio: the UNet
-    decoder_checkpoint: str | None = None  # folder whose decoder is taken; None = the same
-    epochs: int = Field(50, ge=1)  # passes over the phrases
-    patience: int = Field(10, ge=1)  # epochs without a better validation total
-    lr_diffusion: float = Field(1e-6, gt=0)
-    lr_decoder: float = Field(5e-5, gt=0)
-    diffusion_weight: float = Field(0.1, ge=0)
-    decoder_weight: float = Field(1.0, ge=0)
-    temporal_weight: float = Field(10.0, ge=0)
-    ddim_steps: int = Field(5, ge=1)  # of the sampler with gradients
-    data_noise: float = Field(0.5, gt=0, le=1)  # ground truth is noised up to this share of steps
-    losses: DecoderLossConfig = DecoderLossConfig()
-    temporal: TemporalLossConfig = TemporalLossConfig()
-
-    @model_validator(mode="after")
-    def _check_steps(self) -> Self:
-        for name in FROM_EPOCHS:
-            if name in self.model_fields_set:
-                instead = "lr-diffusion and lr-decoder" if name == "learning_rate" else "epochs"
-                raise ValueError(f"{name.replace('_', '-')} has no place here; give {instead}")
-        return self
-
-    def in_steps(self) -> Self:
-        """The same with what follows from the number of phrases of an epoch."""
-        num_phrases = len(open_phrases(self, "train", self.num_phrases))
-        parts = self.gradient_accumulation * int(os.environ.get("WORLD_SIZE", "1"))
-        steps = math.ceil(num_phrases / (self.batch_size * parts))
-        update = {name: steps for name in FROM_EPOCHS[1:4]}
-        rate = {"learning_rate": self.lr_decoder}
-        return self.model_copy(update={**update, **rate, "steps": self.epochs * steps})
 
 
 class DifferentiableSampler:
@@ -334,33 +292,18 @@ class FinetuneE2eTask(AudioTask):
         return self.model
 
 
-stage = Stage(
-    FinetuneE2eConfig,
-    FinetuneE2eTask,
-    "finetune_e2e",
-    "Fine-tune UNet, sampler and decoder as one.",
-    audio=True,
-    network=lambda settings, given: network_of(
-        settings.checkpoint, given, of="--checkpoint and --decoder-checkpoint"
-    ),
-    flags={
-        "checkpoint": "folder with the UNet",
-        "decoder-checkpoint": "folder with the decoder; default: the checkpoint",
-        "epochs": "passes over the phrases",
-        "num-phrases": "take the first so many",
-        "batch-size": "phrases a step and process",
-        "lr-diffusion": "of the UNet",
-        "lr-decoder": "of the decoder",
-        "diffusion-weight": "of the diffusion loss",
-        "decoder-weight": "of the reconstruction",
-        "temporal-weight": "of the coherence terms",
-        "patience": "epochs without a better total before stopping",
-    },
-    example="--checkpoint runs/decoder --data pairs",
-    complete=FinetuneE2eConfig.in_steps,
-)
-app = stage.app()
+def in_steps(config: FinetuneE2eConfig) -> FinetuneE2eConfig:
+    """The same with what follows from the number of phrases of an epoch."""
+    num_phrases = len(open_phrases(config, "train", config.num_phrases))
+    parts = config.gradient_accumulation * int(os.environ.get("WORLD_SIZE", "1"))
+    steps = math.ceil(num_phrases / (config.batch_size * parts))
+    update = {name: steps for name in FROM_EPOCHS[1:4]}
+    rate = {"learning_rate": config.lr_decoder}
+    return config.model_copy(update={**update, **rate, "steps": config.epochs * steps})
+
+
+network_of = partial(audio_stages.network_of, of="--checkpoint and --decoder-checkpoint")
 
 
 if __name__ == "__main__":
-    app()
+    STAGES["finetune-e2e"].app()()

@@ -1,4 +1,7 @@
-"""A training stage as a command: its flags and settings, and how a run of it starts."""
+"""The training stages as commands: their flags and settings, and how a run of one starts.
+
+Nothing here needs PyTorch before a run starts: help and wrong settings are told without it.
+"""
 
 import inspect
 import os
@@ -7,11 +10,19 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar, get_args
+from typing import Annotated, Any, get_args
 
 import typer
 
+from ..shared.config_audio import (
+    FinetuneE2eConfig,
+    TrainAudioConfig,
+    TrainAudioTowerConfig,
+    TrainDecoderConfig,
+    TrainMemoryConfig,
+)
 from ..shared.config_loader import (
     load_audio_network,
     load_network,
@@ -19,50 +30,51 @@ from ..shared.config_loader import (
     recipe_network,
     split_network_overrides,
 )
-from ..shared.config_schema import Config, TrainConfig
+from ..shared.config_schema import (
+    Config,
+    TrainActionConfig,
+    TrainClipConfig,
+    TrainConfig,
+    TrainDistillConfig,
+    TrainEvaluatorConfig,
+    TrainGenerationConfig,
+    TrainTextConfig,
+)
 from ..shared.errors import UserError
 from ..shared.io.concurrency import orderly_termination
 from ..shared.io.files import sole_writer
 from .processes import Interrupted, end_with_parent, is_one_of_several, run_processes
 
-if TYPE_CHECKING:
-    from .task import Task
-
-ConfigT = TypeVar("ConfigT", bound=TrainConfig)
 DATA = "prepared folder, or: synthetic"
 PAIRS = "folder or bucket of prepare-audio, or: synthetic"
 
 
-def _as_it_is(settings: ConfigT) -> ConfigT:
-    return settings
-
-
 @dataclass(frozen=True)
-class Stage(Generic[ConfigT]):
+class Stage:
     """One training stage.
 
     Attributes:
         config: its settings.
-        task: makes what is learned, of settings and network.
-        module: what `accelerate launch -m` calls it, without the package.
+        module: where it is, and what `accelerate launch -m` calls it, without the package.
+        task: what the module calls that which makes a `Task` of settings and network.
         about: help text.
         audio: it learns from pairs, and profiles are those of audio_network.yaml.
-        network: for a stage that goes on from a trained model: its network, of settings and
-            overrides; None where the user chooses a profile.
+        init: for a stage that goes on from a trained model: the setting that names it, and the
+            module's `network_of` knows its network; "" where the user chooses a profile.
         flags: settings with a flag of their own, `key: help text`, or `key: (flag, help text)`.
         example: arguments of the example in the help text.
-        complete: settings with what follows from the data.
+        complete: what the module calls that which adds to settings what follows from the data.
     """
 
-    config: type[ConfigT]
-    task: Callable[[ConfigT, Any], "Task"]
+    config: type[TrainConfig]
     module: str
+    task: str
     about: str
     audio: bool = False
-    network: Callable[[ConfigT, Sequence[str]], Config] | None = None
+    init: str = ""
     flags: Mapping[str, str | tuple[str, str]] = field(default_factory=dict)
     example: str = "--network-profile lightweight steps=500"
-    complete: Callable[[ConfigT], ConfigT] = _as_it_is
+    complete: str = ""
 
     def run(
         self,
@@ -87,12 +99,15 @@ class Stage(Generic[ConfigT]):
         own, given = split_network_overrides(overrides)
         settings = load_train(file, self.config, own)
         network_overrides = [*recipe_network(file, self.config), *given]
-        if self.network is not None:
-            network = self.network(settings, network_overrides)
+        module = self.module if "." in self.module else f"{__package__}.{self.module}"
+        if self.init:
+            network_of = import_module(module).network_of
+            network = network_of(getattr(settings, self.init), network_overrides)
         else:
             load: Callable[..., Config] = load_audio_network if self.audio else load_network
             network = load(settings.profile, network_file, network_overrides)
-        settings = self.complete(settings)
+        if self.complete:
+            settings = getattr(import_module(module), self.complete)(settings)
         if (settings.processes or 1) > 1 and not is_one_of_several():
             raise typer.Exit(run_processes(settings.processes or 1))
         end_with_parent()
@@ -100,11 +115,9 @@ class Stage(Generic[ConfigT]):
         with sole_writer(settings.output) if main else nullcontext():
             from .engine import Trainer  # every check that needs no torch comes before this
 
-            module = self.module if "." in self.module else f"{__package__}.{self.module}"
+            task = getattr(import_module(module), self.task)
             command = resume_command(module, sys.argv[1:])
-            trainer = Trainer(
-                settings, lambda c: self.task(c, network), command=command, resume=resume
-            )
+            trainer = Trainer(settings, lambda c: task(c, network), command=command, resume=resume)
             trainer.train()
 
     def app(self) -> typer.Typer:
@@ -115,7 +128,7 @@ class Stage(Generic[ConfigT]):
             "output": "folder of this run",
             **self.flags,
         }
-        if self.network is None:
+        if not self.init:
             flags["profile"] = ("--network-profile", f"profile of {networks}")
         flags["processes"] = ("--num-processes", "processes on this machine, such as one a GPU")
         keys = {key.replace("-", "_").replace(".", "__"): key for key in flags}
@@ -140,7 +153,7 @@ class Stage(Generic[ConfigT]):
             flag, about = (f"--{key}", named) if isinstance(named, str) else named
             kind = _kind(self.config, key)
             parameters.append(_parameter(name, kind, typer.Option(flag, help=about)))
-        if self.network is None:
+        if not self.init:
             file = typer.Option(help=f"another {networks}")
             parameters.append(_parameter("network_file", Path | None, file))
         resume = typer.Option("--resume", help="continue the run in output")
@@ -216,3 +229,109 @@ def _quoted(text: str) -> str:
 def _leave(message: str, code: int) -> typer.Exit:
     print(message, file=sys.stderr)
     return typer.Exit(code)
+
+
+STAGES = {
+    "clip": Stage(
+        TrainClipConfig,
+        "train_clip",
+        "ClipTask",
+        "Train the text tower and the motion tower that share one space.",
+    ),
+    "generation": Stage(
+        TrainGenerationConfig,
+        "train_generation",
+        "GenerationTask",
+        "Train the motion denoiser behind the frozen text tower of a `clip` run.",
+    ),
+    "evaluator": Stage(
+        TrainEvaluatorConfig,
+        "train_evaluator",
+        "task_of",
+        "Train the evaluator: an independent text-motion model that scores generated motions.",
+    ),
+    "text": Stage(
+        TrainTextConfig,
+        "train_text",
+        "TextTask",
+        "Harden a trained text tower against wordings it never saw; its space stays as it is.",
+    ),
+    "action": Stage(
+        TrainActionConfig,
+        "train_action",
+        "ActionTask",
+        "Teach a trained text model a new action from a few clips; the old ones stay.",
+        init="init",
+        flags={"init": "the model that learns"},
+        example="--data data/mine --init starter --output runs/mine",
+    ),
+    "distill": Stage(
+        TrainDistillConfig,
+        "train_distill",
+        "DistillTask",
+        "Teach a copy of a text model to sample in few steps, without guidance.",
+        init="init",
+        flags={"init": "the teacher"},
+        example="--data data/mine --init starter --output runs/quick",
+    ),
+    "audio": Stage(
+        TrainAudioConfig,
+        "train_audio",
+        "AudioTask",
+        "Train the trajectory UNet on pairs of sound and motion.",
+        audio=True,
+    ),
+    "decoder": Stage(
+        TrainDecoderConfig,
+        "train_decoder",
+        "DecoderTask",
+        "Train the decoder behind an `audio` run.",
+        audio=True,
+        init="audio",
+        flags={"audio": "folder of a train_audio run"},
+        example="--audio runs/audio --data pairs",
+    ),
+    "finetune-e2e": Stage(
+        FinetuneE2eConfig,
+        "finetune_e2e",
+        "FinetuneE2eTask",
+        "Fine-tune UNet, sampler and decoder as one.",
+        audio=True,
+        init="checkpoint",
+        flags={
+            "checkpoint": "folder with the UNet",
+            "decoder-checkpoint": "folder with the decoder; default: the checkpoint",
+            "epochs": "passes over the phrases",
+            "num-phrases": "take the first so many",
+            "batch-size": "phrases a step and process",
+            "lr-diffusion": "of the UNet",
+            "lr-decoder": "of the decoder",
+            "diffusion-weight": "of the diffusion loss",
+            "decoder-weight": "of the reconstruction",
+            "temporal-weight": "of the coherence terms",
+            "patience": "epochs without a better total before stopping",
+        },
+        example="--checkpoint runs/decoder --data pairs",
+        complete="in_steps",
+    ),
+    "audio-tower": Stage(
+        TrainAudioTowerConfig,
+        "train_audio_tower",
+        "AudioTowerTask",
+        "Train the tower that puts sound into the space of texts and motions.",
+    ),
+    "memory": Stage(
+        TrainMemoryConfig,
+        "train_memory",
+        "MemoryTask",
+        "Teach a trained audio model to hear a memory.",
+        audio=True,
+        init="audio",
+        flags={
+            "audio": "audio model that learns",
+            "memory.folder": ("--memory", "folder or address of `tools memory build`"),
+            "space": "shared space of the memory's keys",
+        },
+        example="--memory runs/memory --data pairs",
+    ),
+}

@@ -22,11 +22,10 @@ from functools import cached_property
 from pathlib import Path
 
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import normalize
 
-from ..shared.config_schema import PAIRS, ConstraintShares, LossWeights, NetworkConfig, TrainConfig
+from ..shared.config_schema import PAIRS, NetworkConfig, TrainActionConfig
 from ..shared.data.captions.book import packaged_book
 from ..shared.data.prepared import ClipRecord
 from ..shared.data.text_motion import arm_actions, gestures, still_actions
@@ -38,7 +37,7 @@ from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion
-from .launch import Stage
+from .launch import STAGES
 from .places import apart, old_captions, pooled, with_new_places, within_reach
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
@@ -68,20 +67,6 @@ SHARED = 0.1  # share of another combination's captions that makes a place their
 MOST = 0.5  # share of a combination's captions that have to agree on its place
 SAME = 1e-6  # in cosine, of two places that are one
 ASIDE = 0.3  # how far a style moves from where plain clips are, too
-
-
-class TrainActionConfig(TrainConfig):
-    """train_action.yaml."""
-
-    init: str = "starter"
-    rank: int = Field(16, ge=1)  # of the adapters
-    condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
-    losses: LossWeights = LossWeights()
-    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
-    tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion
-    actions: tuple[str, ...] = ()  # known ones, to be learned better; none: what is new
-    styles: tuple[str, ...] = ()  # of `actions`, to be learned better; none: all
-    min_clips: int = Field(1, ge=1)  # of a combination of labels, to be learned
 
 
 @dataclass(frozen=True)
@@ -465,15 +450,5 @@ def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
     return network
 
 
-app = Stage(
-    TrainActionConfig,
-    ActionTask,
-    "train_action",
-    "Teach a trained text model a new action from a few clips; the old ones stay.",
-    network=lambda settings, given: network_of(settings.init, given),
-    flags={"init": "the model that learns"},
-    example="--data data/mine --init starter --output runs/mine",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["action"].app()()

@@ -15,10 +15,9 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 
-from ..shared.config_audio import AudioNetworkConfig
+from ..shared.config_audio import AudioNetworkConfig, TrainAudioConfig
 from ..shared.data.phrases.dataset import PhraseBatch, motion_statistics
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
@@ -30,20 +29,10 @@ from ..shared.model.audio.conditioning import (
 )
 from ..shared.model.diffusion import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
-from .audio_stages import PhraseConfig, PhraseTask, open_held_back, open_phrases, save_noted
-from .launch import Stage
+from .audio_stages import PhraseTask, open_held_back, open_phrases, save_noted
+from .launch import STAGES
 from .task import means, to_device
 from .train_generation import noise_levels, spread_timesteps
-
-
-class TrainAudioConfig(PhraseConfig):
-    """train_audio.yaml."""
-
-    init: str | None = None  # a trained model, by name or folder, to go on from
-    velocity_weight: float = Field(1.0, ge=0)  # of the error of frame differences, m/s
-    prefix_share: float = Field(0.5, ge=0, le=1)  # windows whose first frames are known
-    prefix_frames: tuple[int, int] = (8, 60)  # how many, at least and at most
-    style_share: float = Field(0.5, ge=0, le=1)  # windows whose style is known
 
 
 @dataclass(frozen=True)
@@ -231,13 +220,5 @@ def _trained_shape(network: AudioNetworkConfig) -> dict[str, Any]:
     return network.model_dump(include={"unet", "condition", "decoder"})
 
 
-app = Stage(
-    TrainAudioConfig,
-    AudioTask,
-    "train_audio",
-    "Train the trajectory UNet on pairs of sound and motion.",
-    audio=True,
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["audio"].app()()

@@ -16,10 +16,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 
-from ..shared.config_audio import AudioTowerConfig
+from ..shared.config_audio import TrainAudioTowerConfig
 from ..shared.config_schema import NetworkConfig
 from ..shared.data.phrases.dataset import MotionPhraseDataset, sound_statistics
 from ..shared.data.phrases.layout import PhraseRecord
@@ -30,24 +29,11 @@ from ..shared.model.audio.shared_space import AudioTower, SharedSpace
 from ..shared.model.clip.core import MAX_LOGIT_SCALE, clip_loss
 from ..shared.model.clip.pretrained import ClipBundle
 from ..shared.motion.trajectory import FPS
-from .audio_stages import PhraseConfig, open_held_back, open_phrases
-from .launch import Stage
+from .audio_stages import open_held_back, open_phrases
+from .launch import STAGES
 from .run_log import announce
 from .task import Part, Task, generator, numpy_generator
 from .train_clip import gather
-
-
-class TrainAudioTowerConfig(PhraseConfig):
-    """train_audio_tower.yaml."""
-
-    clip: str = "runs/clip"  # folder written by train_clip
-    tower: AudioTowerConfig = AudioTowerConfig()  # its embed-dim is that of the CLIP model
-    bars: int = Field(2, ge=1)  # of a window
-    windows: int = Field(2, ge=1)  # of each phrase in a batch
-    copies: int = Field(2, ge=0)  # of each phrase, faster or slower, sound and motion together
-    stretch: float = Field(0.12, ge=0, lt=0.5)  # by how much at most
-    temperature: float = Field(0.1, gt=0)  # start of the learned logit scale
-    cosine_weight: float = Field(0.0, ge=0)
 
 
 @dataclass(frozen=True)
@@ -213,12 +199,5 @@ def _numbered(records: Sequence[PhraseRecord]) -> tuple[Tensor, Tensor]:
     return torch.tensor([songs[record.song or record.id] for record in records]), table
 
 
-app = Stage(
-    TrainAudioTowerConfig,
-    AudioTowerTask,
-    "train_audio_tower",
-    "Train the tower that puts sound into the space of texts and motions.",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["audio-tower"].app()()

@@ -26,7 +26,7 @@ from ..shared.errors import UsageError
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
 from ..shared.model.clip.core import MotionClip, clip_loss
 from ..shared.model.clip.pretrained import KIND, ClipBundle, load_text_tower, tower_hash
-from .launch import Stage
+from .launch import STAGES
 from .task import Part, Task, numpy_generator
 from .text_stages import (
     can_retrieve,
@@ -199,12 +199,5 @@ def with_text_sizes(network: NetworkConfig, tower: ClipConfig) -> NetworkConfig:
     return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})
 
 
-app = Stage(
-    TrainClipConfig,
-    ClipTask,
-    "train_clip",
-    "Train the text tower and the motion tower that share one space.",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["clip"].app()()

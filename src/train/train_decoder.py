@@ -13,15 +13,12 @@ Letters: B batch, T frames.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar, Self
 
 import torch
-from pydantic import Field, model_validator
 from torch import Tensor, nn
 
-from ..shared.config_audio import AudioNetworkConfig, DecoderLossConfig
+from ..shared.config_audio import AudioNetworkConfig, TrainDecoderConfig
 from ..shared.data.phrases.dataset import PhraseBatch
-from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
 from ..shared.model.audio.decoder import (
     Decoder,
@@ -32,42 +29,23 @@ from ..shared.model.audio.decoder import (
 )
 from ..shared.motion.trajectory import PHASE
 from ..shared.pipelines.song_sampler import SPARE
+from . import audio_stages
 from .audio_stages import (
-    PhraseConfig,
     PhraseTask,
     add_shares,
     bar_phase_at_start,
-    network_of,
     open_held_back,
     open_phrases,
     save_noted,
     true_trajectory,
     whole_windows,
 )
-from .launch import Stage
+from .launch import STAGES
 from .run_log import console
 from .task import generator, to_device
 
 ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
-
-
-class TrainDecoderConfig(PhraseConfig):
-    """train_decoder.yaml."""
-
-    variables: ClassVar = PhraseConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
-    audio: str = "runs/audio"  # folder written by train_audio
-    noise: tuple[float, float] = (0.03, 1.0)  # least and most, times the UNet's error
-    correlation: tuple[float, float] = (1.0, 30.0)  # frames, least and most, of correlated noise
-    start_weight: float = Field(0.1, ge=0)  # of the guessed first bar phase
-    losses: DecoderLossConfig = DecoderLossConfig()
-
-    @model_validator(mode="after")
-    def _check_limits(self) -> Self:
-        for key, (low, high) in (("noise", self.noise), ("correlation", self.correlation)):
-            if not 0 < low <= high:
-                raise ValueError(f"{key} [{low}, {high}] must be two numbers above 0, least first")
-        return self
 
 
 @dataclass(frozen=True)
@@ -252,17 +230,8 @@ class DecoderTask(PhraseTask):
         return self.model.eval()
 
 
-app = Stage(
-    TrainDecoderConfig,
-    DecoderTask,
-    "train_decoder",
-    "Train the decoder behind a train_audio run.",
-    audio=True,
-    network=lambda settings, given: network_of(settings.audio, given),
-    flags={"audio": "folder of a train_audio run"},
-    example="--audio runs/audio --data pairs",
-).app()
+network_of = audio_stages.network_of
 
 
 if __name__ == "__main__":
-    app()
+    STAGES["decoder"].app()()

@@ -19,17 +19,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import torch
-from pydantic import Field
 from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
 
 from ..shared.config_schema import (
     PROVENANCES,
-    ConstraintShares,
-    LossWeights,
     NetworkConfig,
-    TrainConfig,
+    TrainDistillConfig,
 )
 from ..shared.data.text_motion import TextMotionBatch
 from ..shared.device import autocast, choose_compute
@@ -41,7 +38,7 @@ from ..shared.model.generation.denoiser import MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion, as_captured
 from ..shared.model.noise import sampling_timesteps
-from .launch import Stage
+from .launch import STAGES
 from .run_log import announce
 from .task import Part, Task, generator, means, mix_seed, numpy_generator, to_device
 from .text_stages import (
@@ -57,21 +54,6 @@ from .train_generation import Conditions, GuidedDenoiser, draw_known
 SPACING = "trailing"  # of both: every step of the student is so many of the teacher's
 PAIRS_FOLDER = "pairs"  # in the output folder: a resumed run reads it
 TOLD_EVERY = 20  # files of pairs
-
-
-class TrainDistillConfig(TrainConfig):
-    """train_distill.yaml."""
-
-    init: str = "starter"  # the teacher
-    student: str | None = None  # taught before, to go on from; None = it begins as the teacher
-    teacher_steps: int = Field(8, ge=1)
-    student_steps: int = Field(2, ge=1)
-    pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
-    first_share: float = Field(0.5, ge=0, le=1)  # of the pairs that begin with noise alone
-    condition_dropout: float = Field(0.05, ge=0, lt=1)  # motions of no text, which edits ask for
-    tag_dropout: float = Field(0.8, ge=0, le=1)
-    losses: LossWeights = LossWeights()
-    constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
 
 
 @dataclass(frozen=True)
@@ -375,15 +357,5 @@ def network_of(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
     return network.model_copy(update={"generation": generation})
 
 
-app = Stage(
-    TrainDistillConfig,
-    DistillTask,
-    "train_distill",
-    "Teach a copy of a text model to sample in few steps, without guidance.",
-    network=lambda settings, given: network_of(settings.init, given),
-    flags={"init": "the teacher"},
-    example="--data data/mine --init starter --output runs/quick",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["distill"].app()()

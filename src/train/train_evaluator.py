@@ -8,30 +8,20 @@ from pathlib import Path
 
 import numpy as np
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 
-from ..shared.config_schema import TrainConfig
+from ..shared.config_schema import TrainConfig, TrainEvaluatorConfig
 from ..shared.data.captions.book import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.errors import UserError
 from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, joint_features, padded
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
-from .launch import Stage
+from .launch import STAGES
 from .task import Part, Task, mix_seed
 from .text_stages import can_retrieve
 
 CHUNK = 256  # clips whose kinematics are computed at once
-
-
-class TrainEvaluatorConfig(TrainConfig):
-    """train_evaluator.yaml."""
-
-    word_dropout: float = Field(0.1, ge=0, lt=1)
-    noise: float = Field(0.05, ge=0)  # on training inputs, in standard deviations
-    hidden_size: int = Field(128, ge=8, multiple_of=2)
-    embed_dim: int = Field(32, ge=4)
 
 
 @dataclass(frozen=True)
@@ -199,12 +189,10 @@ class EvaluatorTask(Task):
         module.save_pretrained(folder, notes=notes)
 
 
-app = Stage(
-    TrainEvaluatorConfig,
-    lambda config, _network: EvaluatorTask(config),  # the profile is of models it will judge
-    "train_evaluator",
-    "Train the evaluator: an independent text-motion model that scores generated motions.",
-).app()
+def task_of(config: TrainEvaluatorConfig, _network: object) -> EvaluatorTask:
+    """The stage's task; the profile it is told is that of the models it will judge."""
+    return EvaluatorTask(config)
+
 
 if __name__ == "__main__":
-    app()
+    STAGES["evaluator"].app()()

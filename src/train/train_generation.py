@@ -36,7 +36,7 @@ from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
 from ..shared.motion.features import FORWARD, HEIGHT, LATERAL, LEFT_CONTACT, ROOT_ROW, YAW_RATE
 from ..shared.motion.skeleton import JOINT_INDEX, LIMBS
-from .launch import Stage
+from .launch import STAGES
 from .task import Part, Task, generator, means, numpy_generator, to_device
 from .text_stages import (
     fit_scope,
@@ -437,12 +437,5 @@ def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     return network.model_dump(exclude={"clip": True, "generation": free | learned_later})
 
 
-app = Stage(
-    TrainGenerationConfig,
-    GenerationTask,
-    "train_generation",
-    "Train the motion denoiser behind the frozen text tower of a train_clip run.",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["generation"].app()()

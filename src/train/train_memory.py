@@ -12,19 +12,17 @@ Letters: B batch, T frames.
 
 from collections import defaultdict
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import torch
-from pydantic import Field
 from torch import Tensor, nn
 
-from ..shared.config_audio import AudioNetworkConfig, MemoryConditionConfig
+from ..shared.config_audio import AudioNetworkConfig, TrainMemoryConfig
 from ..shared.data.phrases.dataset import PhraseBatch, PhraseItem
 from ..shared.data.phrases.layout import PhraseRecord
-from ..shared.environment import DIFFUSION_CHECKPOINT
 from ..shared.errors import UsageError
-from ..shared.memory.index import MemoryConfig
 from ..shared.memory.query import retrieve
 from ..shared.memory.service import MPMService
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
@@ -33,21 +31,10 @@ from ..shared.motion.trajectory import MotionTrajectory
 from ..shared.pipelines.song import AudioCondition
 from ..shared.pipelines.song_memory import as_condition, bars_of_sound, open_memory, remembering
 from ..shared.pipelines.song_sampler import SongSampler
-from .audio_stages import network_of, save_noted
-from .launch import Stage
-from .train_audio import AudioBatch, AudioTask, TrainAudioConfig
-
-
-class TrainMemoryConfig(TrainAudioConfig):
-    """train_memory.yaml."""
-
-    variables: ClassVar = TrainAudioConfig.variables | {"audio": DIFFUSION_CHECKPOINT}
-    audio: str = "starter-audio"  # the model that learns
-    space: str = ""  # where the memory's shared space is now; "" = where it was built with
-    memory: MemoryConfig = MemoryConfig()
-    part: MemoryConditionConfig = MemoryConditionConfig()  # sizes of what is added
-    memory_dropout: float = Field(0.1, ge=0, lt=1)  # windows that remember nothing
-    base_learning_rate: float = Field(0.0, ge=0)  # of what was there before; 0 = it rests
+from . import audio_stages
+from .audio_stages import save_noted
+from .launch import STAGES
+from .train_audio import AudioBatch, AudioTask
 
 
 class Forgetful(nn.Module):
@@ -161,21 +148,8 @@ class MemoryTask(AudioTask):
         save_noted(self._finished(module), folder, training=training)
 
 
-app = Stage(
-    TrainMemoryConfig,
-    MemoryTask,
-    "train_memory",
-    "Teach a trained audio model to hear a memory.",
-    audio=True,
-    network=lambda settings, given: network_of(settings.audio, given, of="--audio; see part.*"),
-    flags={
-        "audio": "audio model that learns",
-        "memory.folder": ("--memory", "folder or address of `tools memory build`"),
-        "space": "shared space of the memory's keys",
-    },
-    example="--memory runs/memory --data pairs",
-).app()
+network_of = partial(audio_stages.network_of, of="--audio; see part.*")
 
 
 if __name__ == "__main__":
-    app()
+    STAGES["memory"].app()()

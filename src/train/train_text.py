@@ -20,16 +20,15 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import torch
 from accelerate import PartialState
-from pydantic import Field
 from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, normalize
 
-from ..shared.config_schema import PAIRS, NetworkConfig, TrainTowerConfig
+from ..shared.config_schema import PAIRS, NetworkConfig, TrainTextConfig
 from ..shared.data.captions.book import drop_words, insert_babble, packaged_book
 from ..shared.data.captions.schema import Labels
 from ..shared.errors import UserError
@@ -52,7 +51,7 @@ from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
-from .launch import Stage
+from .launch import STAGES
 from .places import apart, fuller_sides, nearest_styles, with_sentences, with_unstyled
 from .task import Part, Task, numpy_generator
 from .text_stages import (
@@ -77,24 +76,6 @@ NOWHERE = 0.5  # cosine of the place of what asks for nothing that is known
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 SAME_PLACE = 0.9999  # cosine of two unit places that are one
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
-
-
-class TrainTextConfig(TrainTowerConfig):
-    """train_text.yaml."""
-
-    clip: str | None = "runs/clip"  # folder of train_clip, or a generator; null: from nothing
-    generator: str | None = None  # a generator that gets the hardened tower in the output
-    captions_per_group: int = Field(64, ge=1)  # fresh ones, of each combination and language
-    word_dropout: float = Field(0.05, ge=0, lt=1)
-    written: float = Field(0.5, ge=0, le=1)  # least share of hand-written ones, where there are
-    outside: float = Field(0.1, ge=0, lt=1)  # share of draws that ask for nothing known
-    babble: float = Field(0.6, ge=0, le=1)  # share of captions with made-up words in them
-    scale: float = Field(15.0, gt=0)  # factor on the cosines of the classification term
-    unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
-    tower: Literal["same", "pairs"] = "same"  # "pairs": a new one of token pairs, the same places
-    least_captions: int = Field(3, ge=1)  # of a token or pair that such a tower knows
-    choice_weight: float = Field(0.1, gt=0)  # of the classification term when hardening
-    without: tuple[str, ...] = ()  # actions of the clips that it is not taught
 
 
 class LabelledTower(nn.Module):
@@ -496,12 +477,5 @@ def _noted(card: Any, hardened: dict[str, Any]) -> Any:
     return card.model_copy(update={"training": {**card.training, "text-hardening": hardened}})
 
 
-app = Stage(
-    TrainTextConfig,
-    TextTask,
-    "train_text",
-    "Harden a trained text tower against wordings it never saw; its space stays as it is.",
-).app()
-
 if __name__ == "__main__":
-    app()
+    STAGES["text"].app()()

@@ -12,8 +12,9 @@ from typer.main import get_command
 
 from src.cli.evaluate import Request
 from src.cli.generate_request import Request as GenerateRequest
-from src.cli.tools import STAGES, app
+from src.cli.tools import app
 from src.shared.formats.registry import EXPORTERS
+from src.train.launch import STAGES
 
 FLAGS = {
     "generate": (

@@ -2,13 +2,13 @@
 
 import subprocess
 import sys
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 from typer.main import get_command
 
-from src.cli.tools import STAGES
+from src.cli.tools import TRAINED
+from src.train.launch import STAGES
 
 ROOT = Path(__file__).parents[2]
 COMMON = {"--config", "--data", "--output", "--num-processes", "--resume"}
@@ -29,12 +29,13 @@ OWN = {
 def test_every_stage_of_the_folder_has_a_name() -> None:
     files = {path.stem for path in (ROOT / "src" / "train").glob("*.py")}
     stages = {name for name in files if name.startswith(("train_", "finetune_"))}
-    assert {module for module, _ in STAGES.values()} == stages
+    assert {stage.module for stage in STAGES.values()} == stages
+    assert list(STAGES) == list(TRAINED)
 
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_the_flags_of_a_stage_are_a_promise(stage: str) -> None:
-    command = get_command(import_module(f"src.train.{STAGES[stage][0]}").app)
+    command = get_command(STAGES[stage].app())
     flags = {flag for parameter in command.params for flag in parameter.opts if flag[0] == "-"}
     assert flags == COMMON | OWN.get(stage, NETWORK)
     assert f"motion-tools train {stage} " in (command.help or "")

@@ -5,16 +5,18 @@ from pathlib import Path
 import pytest
 
 from src.shared import environment
+from src.shared.config_audio import (
+    FinetuneE2eConfig,
+    PhraseConfig,
+    TrainAudioConfig,
+    TrainDecoderConfig,
+)
 from src.shared.config_loader import load_train
 from src.shared.device import choose_compute, choose_device
 from src.shared.errors import UsageError
 from src.shared.model import checkpoint
 from src.shared.pipelines.motion_generator import MotionGenerator
-from src.train.audio_stages import PhraseConfig
-from src.train.finetune_e2e import FinetuneE2eConfig
-from src.train.train_audio import TrainAudioConfig
 from src.train.train_clip import TrainClipConfig
-from src.train.train_decoder import TrainDecoderConfig
 
 
 @pytest.fixture(autouse=True)

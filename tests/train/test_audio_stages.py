@@ -13,9 +13,10 @@ from tiny_audio_stage import (
 
 from src.shared.config_loader import load_train
 from src.shared.errors import UserError
-from src.train import finetune_e2e, train_decoder
+from src.train import train_decoder
 from src.train.audio_stages import network_of, open_held_back, open_phrases
 from src.train.engine import Trainer
+from src.train.launch import STAGES
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +42,7 @@ def test_every_stage_runs_without_held_back_phrases(
     Trainer(settings, lambda c: build(c, network), command="again").train()
 
     places = [f"data='{few}'", f"checkpoint='{tmp_path}/decoder'", f"output='{tmp_path}/e2e'"]
-    finetune_e2e.stage.run([*SETTINGS, *places, "epochs=1"])
+    STAGES["finetune-e2e"].run([*SETTINGS, *places, "epochs=1"])
     assert (tmp_path / "e2e" / "finished.json").exists()
 
 

@@ -21,6 +21,7 @@ from tiny_audio_stage import (
 )
 from typer.testing import CliRunner
 
+from src.shared.config_audio import FinetuneE2eConfig
 from src.shared.config_loader import load_train
 from src.shared.errors import UsageError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
@@ -31,14 +32,8 @@ from src.shared.model.audio.decoder import (
 )
 from src.train.audio_stages import network_of
 from src.train.engine import Trainer
-from src.train.finetune_e2e import (
-    E2eObjective,
-    FinetuneE2eConfig,
-    FinetuneE2eTask,
-    app,
-    mean_speed,
-    stage,
-)
+from src.train.finetune_e2e import E2eObjective, FinetuneE2eTask, in_steps, mean_speed
+from src.train.launch import STAGES
 from src.train.run_log import Epoch, best_epoch, read_epochs, results_table
 from src.train.task import Part
 
@@ -73,7 +68,7 @@ def settings(circles: Path, checkpoint: Path, tmp_path: Path) -> Settings:
         places = [f"data='{circles}'", f"checkpoint='{checkpoint}'"]
         places += [f"output='{tmp_path / output}'"]
         config = load_train(None, FinetuneE2eConfig, [*QUIET, *places, *overrides])
-        return config.in_steps()
+        return in_steps(config)
 
     return make
 
@@ -158,7 +153,7 @@ def test_the_command_takes_the_flags_of_the_document(
         "output": tmp_path,
     }
     arguments = [part for key, value in flags.items() for part in (f"--{key}", str(value))]
-    done = CliRunner().invoke(app, [*QUIET, *arguments])
+    done = CliRunner().invoke(STAGES["finetune-e2e"].app(), [*QUIET, *arguments])
     assert done.exit_code == 0, done.output
     identity = json.loads((tmp_path / "run.json").read_text())
     assert identity["lr-diffusion"] == 1e-6 and identity["temporal-weight"] == 10
@@ -172,7 +167,7 @@ def test_two_processes_equal_one(circles: Path, checkpoint: Path, tmp_path: Path
     arguments = [*QUIET, "batch-size=2", "epochs=1", *map(str, places)]
     launch_two("src.train.finetune_e2e", *arguments, "--output", tmp_path / "two")
     one = [*arguments, "gradient-accumulation=2", "--output", str(tmp_path / "one")]
-    done = CliRunner().invoke(app, one)
+    done = CliRunner().invoke(STAGES["finetune-e2e"].app(), one)
     assert done.exit_code == 0, done.output
     assert_close_runs(tmp_path / "two", tmp_path / "one")
 
@@ -260,7 +255,7 @@ def test_what_follows_from_the_epochs_cannot_be_set(settings: Settings, key: str
 
 def test_the_network_is_that_of_the_checkpoint(checkpoint: Path, circles: Path) -> None:
     with pytest.raises(UsageError, match=r"network\.unet.* is that of --checkpoint"):
-        stage.run([NETWORK[0], f"checkpoint='{checkpoint}'", f"data='{circles}'"])
+        STAGES["finetune-e2e"].run([NETWORK[0], f"checkpoint='{checkpoint}'", f"data='{circles}'"])
 
 
 # ------------------------------------------------------------ epochs

@@ -8,16 +8,16 @@ from tiny_stage import NETWORK, SETTINGS, generation_config, tiny_network, train
 from typer.testing import CliRunner
 
 from src.shared.config_loader import load_train
-from src.shared.config_schema import NetworkConfig
+from src.shared.config_schema import NetworkConfig, TrainTextConfig
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.clip.core import small_text_config
 from src.shared.model.clip.pretrained import ClipBundle
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.train import text_stages, train_clip, train_text
-from src.train import train_generation as generation
+from src.train import text_stages
 from src.train.engine import Trainer
+from src.train.launch import STAGES
 from src.train.text_stages import MEANS_FILE
-from src.train.train_text import LabelledTower, TextTask, TrainTextConfig
+from src.train.train_text import LabelledTower, TextTask
 from tests.shared.data.captions.caption_labels import SYNTHETIC
 
 
@@ -134,11 +134,13 @@ def test_the_recipe_of_default_from_captions_to_motions(
     model = "pairs" if tower == "pairs" else network.clip.text_model
     common += [f"network.clip.text-model='{model}'", "languages=[en]"]
     for stage, name, given in (
-        (train_text, "text", ["captions-per-group=2"]),
-        (train_clip, "clip", [f"text='{tmp_path / 'text'}'"]),
-        (generation, "made", [f"clip='{tmp_path / 'clip'}'"]),
+        ("text", "text", ["captions-per-group=2"]),
+        ("clip", "clip", [f"text='{tmp_path / 'text'}'"]),
+        ("generation", "made", [f"clip='{tmp_path / 'clip'}'"]),
     ):
-        done = CliRunner().invoke(stage.app, [*common, *given, "--output", str(tmp_path / name)])
+        done = CliRunner().invoke(
+            STAGES[stage].app(), [*common, *given, "--output", str(tmp_path / name)]
+        )
         assert done.exit_code == 0, done.output
     model = TextToMotion.from_pretrained(tmp_path / "made")
     assert model.network.generation.prediction_type == "sample"

@@ -15,6 +15,7 @@ from tiny_stage import (
 )
 
 from src.shared.config_loader import load_train
+from src.shared.config_schema import TrainActionConfig, TrainTextConfig
 from src.shared.data.prepare import prepare
 from src.shared.data.sources import MotionFolder
 from src.shared.data.synthetic.clips import generate_clip, spec_for
@@ -23,14 +24,8 @@ from src.shared.formats.writers.bvh import write_bvh
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
 from src.train.text_stages import as_features
-from src.train.train_action import (
-    ActionTask,
-    TrainActionConfig,
-    aside,
-    network_of,
-    unshared,
-)
-from src.train.train_text import TextTask, TrainTextConfig
+from src.train.train_action import ActionTask, aside, network_of, unshared
+from src.train.train_text import TextTask
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
 PAIRED = (

@@ -20,6 +20,7 @@ from tiny_audio_stage import (
     train_audio,
 )
 
+from src.shared.config_audio import TrainAudioConfig
 from src.shared.errors import UsageError, UserError
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.diffusion import GaussianDiffusion
@@ -27,7 +28,7 @@ from src.shared.motion.trajectory import STYLE
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from src.train.engine import learning_rate_factor
 from src.train.task import Part
-from src.train.train_audio import AudioBatch, AudioTask, TrainAudioConfig, audio_losses
+from src.train.train_audio import AudioBatch, AudioTask, audio_losses
 
 
 def test_it_learns_and_leaves_a_folder(circles: Path, tmp_path: Path) -> None:

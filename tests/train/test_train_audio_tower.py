@@ -7,12 +7,13 @@ import pytest
 import torch
 from tiny_audio_stage import SETTINGS, STEPS, assert_equal_runs
 
+from src.shared.config_audio import TrainAudioTowerConfig
 from src.shared.config_loader import load_network, load_train
 from src.shared.errors import UserError
 from src.shared.model.audio.shared_space import SharedSpace
 from src.train.engine import Trainer
 from src.train.task import Part
-from src.train.train_audio_tower import AudioTowerTask, TrainAudioTowerConfig, kin
+from src.train.train_audio_tower import AudioTowerTask, kin
 from tests.shared.evaluation.space_samples import TOWER, tiny_bundle, write_space_phrases
 
 SIZES = [f"tower.{key}={getattr(TOWER, key.replace('-', '_'))}" for key in

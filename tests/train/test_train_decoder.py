@@ -20,6 +20,7 @@ from tiny_audio_stage import (
 )
 from typer.testing import CliRunner
 
+from src.shared.config_audio import TrainDecoderConfig
 from src.shared.config_loader import load_train
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.errors import UsageError, UserError
@@ -28,15 +29,9 @@ from src.shared.model.audio.decoder import DerivedMotionDecoder, MotionDecoder
 from src.shared.motion.trajectory import PHASE
 from src.train.audio_stages import bar_phase_at_start, network_of, true_trajectory, whole_windows
 from src.train.engine import Trainer
+from src.train.launch import STAGES
 from src.train.task import Part, generator
-from src.train.train_decoder import (
-    DecoderTask,
-    TrainDecoderConfig,
-    app,
-    denoiser_error,
-    log_uniform,
-    time_noise,
-)
+from src.train.train_decoder import DecoderTask, denoiser_error, log_uniform, time_noise
 
 RESIDUAL = "network.decoder.decoder=residual"
 
@@ -212,10 +207,10 @@ def test_limits_are_two_numbers_in_order(circles: Path, audio: Path, tmp_path: P
 
 def test_a_run_from_the_command_line(circles: Path, audio: Path, tmp_path: Path) -> None:
     places = ["--data", str(circles), "--audio", str(audio), "--output", str(tmp_path)]
-    done = CliRunner().invoke(app, [*SETTINGS, *STEPS, *places, "steps=1"])
+    done = CliRunner().invoke(STAGES["decoder"].app(), [*SETTINGS, *STEPS, *places, "steps=1"])
     assert done.exit_code == 0, done.output
     assert (tmp_path / "model.safetensors").exists()
-    again = CliRunner().invoke(app, [*SETTINGS, *STEPS, *places, "steps=1"])
+    again = CliRunner().invoke(STAGES["decoder"].app(), [*SETTINGS, *STEPS, *places, "steps=1"])
     assert again.exit_code == 2 and "--resume" in again.output
 
 

@@ -14,6 +14,7 @@ from tiny_stage import (
 )
 
 from src.shared.config_loader import load_train
+from src.shared.config_schema import TrainDistillConfig
 from src.shared.errors import UsageError, UserError
 from src.shared.model.diffusion import guided, make_sampler
 from src.shared.model.generation.constraint import Constraint
@@ -21,7 +22,7 @@ from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.text_stages import as_features
-from src.train.train_distill import DistillTask, TrainDistillConfig, network_of
+from src.train.train_distill import DistillTask, network_of
 
 PROMPTS = ["a person walks forward", "someone waves with the left hand"]
 

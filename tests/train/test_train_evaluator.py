@@ -7,17 +7,13 @@ import pytest
 import torch
 
 from src.shared.config_loader import load_train
+from src.shared.config_schema import TrainEvaluatorConfig
 from src.shared.data.prepared import PreparedData
 from src.shared.errors import UserError
 from src.shared.evaluation.evaluator import Evaluator
+from src.train.launch import STAGES
 from src.train.task import Part
-from src.train.train_evaluator import (
-    EvaluatorTask,
-    PairSet,
-    TrainEvaluatorConfig,
-    app,
-    contrastive_loss,
-)
+from src.train.train_evaluator import EvaluatorTask, PairSet, contrastive_loss
 
 SETTINGS = {
     "steps": 24, "batch-size": 32, "hidden-size": 32, "threads": 1, "device": "cpu",
@@ -45,7 +41,7 @@ def test_a_short_run_learns_and_resumes(data: Path, tmp_path: Path) -> None:
     from typer.testing import CliRunner
 
     def run(*arguments: str) -> str:
-        result = CliRunner().invoke(app, [*SHORT, f"data={data}", *arguments])
+        result = CliRunner().invoke(STAGES["evaluator"].app(), [*SHORT, f"data={data}", *arguments])
         assert result.exit_code == 0, result.output
         return result.output
 

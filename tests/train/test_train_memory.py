@@ -8,6 +8,7 @@ import torch
 from safetensors.torch import load_file
 from tiny_audio_stage import PREFIX, SETTINGS, STEPS, assert_equal_runs, audio_config, train_audio
 
+from src.shared.config_audio import TrainMemoryConfig
 from src.shared.config_loader import load_train
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.errors import UsageError, UserError
@@ -19,7 +20,7 @@ from src.shared.pipelines.song_memory import bars_of_sound
 from src.train.audio_stages import network_of
 from src.train.engine import Trainer
 from src.train.task import Part
-from src.train.train_memory import MemoryTask, TrainMemoryConfig
+from src.train.train_memory import MemoryTask
 from tests.shared.memory.tiny_memory import make_phrase
 from tests.shared.pipelines.tiny_recall import save_space
 

@@ -20,12 +20,13 @@ from tiny_stage import (
 )
 
 from src.shared.config_loader import load_train
+from src.shared.config_schema import TrainTextConfig
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.clip.pretrained import ClipBundle, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
 from src.train.task import Part
-from src.train.train_text import PLAIN, TextTask, TrainTextConfig
+from src.train.train_text import PLAIN, TextTask
 
 
 def text_config(data: Path, clip: Path, output: Path, *overrides: str) -> TrainTextConfig:

@@ -11,12 +11,12 @@ import numpy as np
 import torch
 from safetensors.torch import load_file
 
-from src.shared.config_audio import AudioNetworkConfig
+from src.shared.config_audio import AudioNetworkConfig, TrainAudioConfig
 from src.shared.config_loader import load_audio_network, load_train
 from src.shared.data.phrases.layout import write_manifest, write_phrase
 from src.shared.motion.trajectory import MotionTrajectory
 from src.train.engine import Trainer
-from src.train.train_audio import AudioTask, TrainAudioConfig
+from src.train.train_audio import AudioTask
 
 ROOT = Path(__file__).parents[2]
 NETWORK = [

@@ -57,7 +57,7 @@ class TinyTask(Task):
         torch.save(module.state_dict(), folder / "weights.pt")
 
 
-STAGE = Stage(TrainConfig, TinyTask, "tests.train.tiny_task", "Train the tiny task.")
+STAGE = Stage(TrainConfig, "tests.train.tiny_task", "TinyTask", "Train the tiny task.")
 
 if __name__ == "__main__":
     STAGE.app()()

@@ -25,6 +25,7 @@ import torch
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
+from ..config_audio import MemoryConfig
 from ..data.phrases.dataset import read_phrase
 from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
 from ..data.phrases.layout import BadContent, PhraseRecord, PhraseTable
@@ -42,15 +43,7 @@ from ..motion.skeleton import JOINT_INDEX
 from ..motion.trajectory import FPS, encode_window, place_window
 from .figures import FigureMemory, Take
 from .folders import INTEGERS, KEY_TENSORS, MANIFEST, MOTION_TENSORS, TEXTS, writable
-from .index import (
-    MemoryConfig,
-    MemoryIndex,
-    Phrase,
-    add_library,
-    has_tables,
-    library_installed,
-    open_index,
-)
+from .index import MemoryIndex, Phrase, add_library, has_tables, library_installed, open_index
 from .priors import prior_curves
 from .steps import made_takes
 

@@ -16,11 +16,9 @@ from typing import Any, Literal, Self
 
 import numpy as np
 import torch
-from pydantic import Field
 from torch import Tensor
 from torch.nn.functional import normalize, pad
 
-from ..config_schema import Config
 from ..errors import UserError
 from ..io.files import atomic_write, write_json
 from ..io.storage import Place, place
@@ -32,21 +30,6 @@ Excluded = Sequence[Set[str] | None]  # a query's songs that may not be found
 BLOCK = 65_536  # phrases compared at a time
 PHASE_WEIGHT = 0.1
 NOTHING = -1  # in Hits.index where there are fewer phrases than hits were asked for
-
-
-class MemoryConfig(Config):
-    """Settings of `MPMService` and `memory build` (memory.yaml)."""
-
-    folder: str = ""  # or address, that `memory build` wrote
-    bars: int = Field(2, ge=1)  # length of a phrase
-    min_frames: int = Field(24, ge=8)  # shorter rests at the ends of a song are left out
-    top_k: int = Field(8, ge=1)
-    temperature: float = Field(0.07, gt=0)  # of the softmax over similarities of the hits
-    key: Key = "audio"  # which side of a phrase is compared with the query
-    phase_weight: float = Field(0.1, ge=0)  # similarity that a phrase half a bar off loses
-    deadline: float = Field(2.0, gt=0)  # seconds after which a query is answered by "nothing"
-    workers: int = Field(4, ge=1)  # threads that search
-    library_above: int = Field(50_000, ge=0)  # phrases; beyond, search by library if installed
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,10 +11,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..config_audio import MemoryConfig
 from ..model.audio.shared_space import SharedSpace
 from ..motion.trajectory import FPS, PHASE, VELOCITY, unwrap_phase
 from .build import BATCH, cut_at_bars, padded
-from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryConfig, MemoryIndex
+from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
 from .priors import NUM_PRIORS
 
 CONTEXT_DIM = 256  # ruling 26

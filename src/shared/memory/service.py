@@ -19,8 +19,9 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ..config_audio import MemoryConfig
 from ..errors import UsageError
-from .index import MemoryConfig, MemoryIndex, open_index
+from .index import MemoryIndex, open_index
 from .query import Memory, null_memory, query_bars, retrieve
 
 log = logging.getLogger(__name__)

@@ -17,11 +17,11 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..config_audio import AudioNetworkConfig
+from ..config_audio import AudioNetworkConfig, MemoryConfig
 from ..config_loader import load_config, load_yaml, packaged_config
 from ..errors import UserError
 from ..io.storage import Place
-from ..memory.index import MemoryConfig, MemoryIndex
+from ..memory.index import MemoryIndex
 from ..memory.query import Memory
 from ..memory.service import MPMService
 from ..model.audio.conditioning import BEAT, MemoryCondition, with_phase_rows

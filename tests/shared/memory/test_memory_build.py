@@ -13,13 +13,14 @@ import pytest
 import torch
 from torch import Tensor
 
+from src.shared.config_audio import MemoryConfig
 from src.shared.data.phrases.layout import MANIFEST, body_path
 from src.shared.errors import UserError
 from src.shared.io.storage import Address
 from src.shared.memory import build
 from src.shared.memory.build import build_memory
 from src.shared.memory.folders import readable, writable
-from src.shared.memory.index import MemoryConfig, MemoryIndex
+from src.shared.memory.index import MemoryIndex
 from tests.files import files_of
 from tests.shared.memory.tiny_memory import LinearSpace, write_dancers
 

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 import torch
 
+from src.shared.config_audio import MemoryConfig
 from src.shared.errors import UsageError, UserError
-from src.shared.memory.index import Hits, MemoryConfig, MemoryIndex
+from src.shared.memory.index import Hits, MemoryIndex
 from src.shared.memory.query import Memory, retrieve
 from src.shared.memory.service import MPMService
 from tests.shared.memory.tiny_memory import make_index

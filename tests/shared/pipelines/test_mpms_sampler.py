@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import torch
 
-from src.shared.config_audio import MemoryConditionConfig
+from src.shared.config_audio import MemoryConditionConfig, MemoryConfig
 from src.shared.data.phrases.layout import phase_rows
 from src.shared.errors import UsageError, UserError
-from src.shared.memory.index import MemoryConfig, MemoryIndex
+from src.shared.memory.index import MemoryIndex
 from src.shared.memory.service import MPMService
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.motion_sampler import MPMSMotionSampler, hearable

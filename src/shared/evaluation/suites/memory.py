@@ -16,9 +16,10 @@ import numpy as np
 import torch
 from torch import Tensor
 
+from ...config_audio import MemoryConfig
 from ...data.phrases.dataset import PhraseBatch, PhraseItem, collate
 from ...errors import UserError
-from ...memory.index import MemoryConfig, MemoryIndex
+from ...memory.index import MemoryIndex
 from ...memory.priors import prior_curves
 from ...memory.query import Memory, retrieve
 from ...model.audio.audio_motion_model import AudioMotionModel

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from src.cli.evaluate_suites import numbers
 from src.cli.tools import app
+from src.shared.config_audio import MemoryConfig
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.suites.memory import (
@@ -33,7 +34,6 @@ from src.shared.evaluation.suites.memory import (
     word,
 )
 from src.shared.evaluation.tables import Column
-from src.shared.memory.index import MemoryConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.pipelines.song_sampler import SongSampling
 from tests.shared.evaluation.tiny_pairs import tiny_model, write_pairs

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import torch
 
+from src.shared.config_schema import TrainEvaluatorConfig
 from src.shared.data.captions.book import CaptionBook
 from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
@@ -37,7 +38,7 @@ from src.shared.evaluation.tables import (
     tables,
 )
 from src.shared.motion.motion import Motion
-from src.train.train_evaluator import PairSet, TrainEvaluatorConfig, contrastive_loss
+from src.train.train_evaluator import PairSet, contrastive_loss
 
 SETTINGS = TextSettings(
     num_samples=96,
