@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated, Any, get_args
 
@@ -99,26 +100,31 @@ class Stage:
         own, given = split_network_overrides(overrides)
         settings = load_train(file, self.config, own)
         network_overrides = [*recipe_network(file, self.config), *given]
-        module = self.module if "." in self.module else f"{__package__}.{self.module}"
         if self.init:
-            network_of = import_module(module).network_of
-            network = network_of(getattr(settings, self.init), network_overrides)
+            network = self.part("network_of")(getattr(settings, self.init), network_overrides)
         else:
             load: Callable[..., Config] = load_audio_network if self.audio else load_network
             network = load(settings.profile, network_file, network_overrides)
         if self.complete:
-            settings = getattr(import_module(module), self.complete)(settings)
+            settings = self.part(self.complete)(settings)
         if (settings.processes or 1) > 1 and not is_one_of_several():
             raise typer.Exit(run_processes(settings.processes or 1))
+        if find_spec("torch") is None:  # the lock below lacks in the same installation
+            raise ModuleNotFoundError("no PyTorch", name="torch")
         end_with_parent()
         main = os.environ.get("RANK", "0") == "0"  # of the processes of one run
         with sole_writer(settings.output) if main else nullcontext():
             from .engine import Trainer  # every check that needs no torch comes before this
 
-            task = getattr(import_module(module), self.task)
+            task = self.part(self.task)
+            module = self.module if "." in self.module else f"{__package__}.{self.module}"
             command = resume_command(module, sys.argv[1:])
             trainer = Trainer(settings, lambda c: task(c, network), command=command, resume=resume)
             trainer.train()
+
+    def part(self, name: str) -> Any:
+        """What the stage's module calls so; that is when PyTorch is imported."""
+        return getattr(import_module(f".{self.module}", __package__), name)
 
     def app(self) -> typer.Typer:
         """The stage's command: KEY=VALUE, its flags, and those of every stage."""

@@ -60,6 +60,7 @@ from .path import (
 from .sentence import GOING, LOW, Clause, Reading, clauses, goes_round, side_of, turns_head, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
+from .words import unlearned
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}
@@ -223,11 +224,8 @@ class SentenceGenerator:
             lines = self.generator.scope_warnings([whole(prompt, parts)], again=again)
         if len(texts) > 1 or not (parts[0].plain or lines == [None]):
             lines = self.generator.scope_warnings(texts, again=again)
-        alone = "asks the head alone to turn, which this model has not learned"
-        return [
-            line or (f"prompt {text!r} {alone}" if turns_head(text) else None)
-            for text, line in zip(texts, lines, strict=True)
-        ]
+        known = self.generator.scope.actions if self.generator.scope else []
+        return [line or unlearned(text, known) for text, line in zip(texts, lines, strict=True)]
 
     # ------------------------------------------------------------ one sentence
 

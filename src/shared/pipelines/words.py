@@ -6,7 +6,7 @@ one it is in.
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cache, partial, reduce
 from itertools import groupby
 from typing import Any
@@ -50,6 +50,7 @@ _NOT_THIS = f"(?:^|(?<=[、。，,]))[^、。，,]{{1,40}}?{_NOT}[、，,]?"
 # German says its verb behind what is done with it.
 _STATT = rf"(?<!{_LETTER})(?:an)?statt\s[^,;.!?]{{0,60}}?\bzu\s+{_LETTER}+n\b,?"
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
+WORD = re.compile(r"\w+")
 NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
 
 
@@ -347,6 +348,52 @@ def _undone(said: re.Match[str]) -> str:
         return said[0]
     lowers = f"{ARROW}{STANDS} for {ARRIVES:g} seconds{ARROW if more else ''}"
     return lowers if all_words().held.search(before + ",") else ""
+
+
+# ---------------------------------------------------------------- what nobody taught
+
+
+@cache
+def unlearned_words() -> list[tuple[list[str], str, bool]]:
+    """Of unlearned.yaml: actions, what is looked for, whether accents may be missing in it."""
+    found = []
+    for actions, languages in load_yaml(packaged_config("unlearned.yaml")).items():
+        for language, phrases in languages.items():
+            loose = language in ("es", "fr")
+            for phrase in phrases:
+                words = _between_blanks(phrase, loose=loose)
+                if re.search(f"[{_CJK}]", phrase):
+                    words = words.strip()
+                found.append((actions.split(), words[:-1] if phrase[-1] == "*" else words, loose))
+    return found
+
+
+def unlearned(text: str, known: Collection[str]) -> str | None:
+    """A line if a text asks for what is none of the known actions, whatever else it asks for."""
+    said = [_between_blanks(text, loose=loose) for loose in (False, True)]
+    found = [
+        (said[loose].index(words), words)
+        for actions, words, loose in unlearned_words()
+        if words in said[loose] and not any(action in known for action in actions)
+    ]
+    if all_words().head_turns.search(text):
+        asked = "the head alone to turn"
+    elif found:
+        at, words = min(found, key=lambda each: (each[0], -len(each[1])))
+        if words.startswith(" "):  # as it is written, to the end of its last word
+            first, last = (said[False].count(" ", 0, i) for i in (at, at + len(words.rstrip())))
+            spans = [word.span() for word in WORD.finditer(plain_text(text))]
+            words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
+        asked = f"for {words!r}"
+    else:
+        return None
+    return f"prompt {text!r} asks {asked}, which this model has not learned"
+
+
+def _between_blanks(text: str, *, loose: bool) -> str:
+    """The words of a text without case, where loose without accents, each between blanks."""
+    plain = bare(plain_text(text)) if loose else plain_text(text).casefold()
+    return f" {' '.join(re.findall(WORD, plain))} "
 
 
 def value_of(text: str) -> float:

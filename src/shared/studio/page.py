@@ -32,7 +32,7 @@ from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card, require_packa
 from ..motion.postprocess.whole import smoothing_weights
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
-from ..pipelines.words import javascript_patterns
+from ..pipelines.words import javascript_patterns, unlearned_words
 
 WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
 LICENCES = "licences.txt.gz"
@@ -164,6 +164,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         },
         "scope": load_json(folder / SCOPE_FILE),
         "measures": javascript_patterns(),
+        "unlearned": unlearned_words(),
         "skeleton": {
             "names": list(JOINT_NAMES),
             "parents": body["skeleton"]["parents"],

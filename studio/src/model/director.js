@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { GOING, isPlain, LOW, plainClause, SentenceReader } from "./sentence.js";
+import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, WORD } from "./sentence.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
@@ -34,8 +34,23 @@ export class Director {
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
     let lines = texts.length === 1 ? [this.scope.warning(this.reader.whole(prompt, parts))] : []; // known without its measures, or with them
     if (texts.length > 1 || !(isPlain(parts[0]) || lines[0] === null)) lines = texts.map((text) => this.scope.warning(text));
-    const head = texts.find((text) => this.reader.turnsHead(text));
-    return lines.find(Boolean) ?? (head ? `“${head}” asks the head alone to turn, which this model has not learned.` : null);
+    return lines.find(Boolean) ?? texts.map((text) => this.unlearned(text)).find(Boolean) ?? null;
+  }
+
+  /** A line if a text asks for what is none of the known actions, whatever else it asks for. */
+  unlearned(text) {
+    const said = [false, true].map((loose) => betweenBlanks(text, loose)), known = new Set(this.scope.meta.actions);
+    const found = this.settings.unlearned
+      .filter(([actions, words, loose]) => said[Number(loose)].includes(words) && !actions.some((action) => known.has(action)))
+      .map(([, words, loose]) => [said[Number(loose)].indexOf(words), words]);
+    const line = (asked) => `“${text}” asks ${asked}, which this model has not learned.`;
+    if (this.reader.turnsHead(text)) return line("the head alone to turn");
+    if (!found.length) return null;
+    const [at, words] = found.reduce((a, b) => (b[0] < a[0] || (b[0] === a[0] && b[1].length > a[1].length) ? b : a));
+    if (!words.startsWith(" ")) return line(`for “${words}”`);
+    const [first, last] = [at, at + words.trimEnd().length].map((stop) => said[0].slice(0, stop).split(" ").length - 1);
+    const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]);
+    return line(`for “${plain(text).slice(spans[first][0], spans[last - 1][1])}”`);
   }
 
   /**

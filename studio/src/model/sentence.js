@@ -27,10 +27,16 @@ function strip(text, characters = EDGES) {
   return text.slice(start, stop);
 }
 
-const plain = (text) => text.trim().split(/\s+/u).join(" ").normalize("NFKC");
+export const plain = (text) => text.trim().split(/\s+/u).join(" ").normalize("NFKC");
 const stripEnd = (text) => text.slice(0, [...text].findLastIndex((c) => !EDGES.includes(c)) + 1);
 const stripStart = (text) => [...text].slice([...text].findIndex((c) => !EDGES.includes(c))).join("");
 const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’", "'").replaceAll("ı", "i").normalize("NFD").replace(/\p{M}/gu, "");
+export const WORD = /[\p{L}\p{N}_]+/gu;
+/** The words of a text without case, where loose without accents, each between blanks. */
+export function betweenBlanks(text, loose) {
+  const words = loose ? bare(plain(text)) : plain(text).toLowerCase().replaceAll("ß", "ss");
+  return ` ${(words.match(WORD) ?? []).join(" ")} `;
+}
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
 /** Whether both are understood, as two actions. */

@@ -1,12 +1,15 @@
 """What sentences say of order and measure, in six languages; and what is no order or measure."""
 
 import time
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.config_loader import parse_yaml
 from src.shared.pipelines.sentence import Clause, Reading, clauses, goes_round, side_of
+from src.shared.pipelines.words import unlearned
 
 ACTIONS = {
     "walk": ("walk", "camina", "march", "geht", "geh", "lauf", "歩", "走"),
@@ -505,3 +508,51 @@ def test_order_is_told_in_other_ways(sentence: str, texts: list[str]):
 @pytest.mark.parametrize("name", ["Uğur", "Łukasz", "Nguyễn", "Cœur", "nō"])
 def test_a_letter_of_another_language_ends_no_word(name: str) -> None:
     assert clauses(f"{name} waves") == [Clause(f"{name} waves")]
+
+
+# ---------------------------------------------------------------- what nobody taught
+
+KNOWN = {"walk", "wave", "kick", "punch", "raise", "bow", "jump", "stand"}
+
+
+@pytest.mark.parametrize(
+    ("text", "asked"),
+    [
+        ("he yawns, then walks", "'yawns'"),
+        ("Elle marche en baillant", "'baillant'"),
+        ("un homme s’allonge", "'s’allonge'"),
+        ("Sie SCHÜTTELT den  Kopf", "'SCHÜTTELT den Kopf'"),
+        ("趴在地上匍匐前进", "'趴在地上'"),
+        ("she walks and then blocks with her shield", "'blocks with'"),
+        ("balances on one leg while she nods", "'balances on'"),
+        ("a guard turns his head to the left", "the head alone to turn"),
+    ],
+)
+def test_what_nobody_taught_is_told(text: str, asked: str) -> None:
+    line = unlearned(text, KNOWN)
+    assert line == f"prompt {text!r} asks {'' if asked[0] == 't' else 'for '}{asked}, " + (
+        "which this model has not learned"
+    )
+
+
+def test_what_a_model_knows_is_not_told() -> None:
+    assert unlearned("he yawns", {*KNOWN, "yawn"}) is None
+    assert unlearned("she sägt Hallo", KNOWN) and unlearned("eine Frau sagt Hallo", KNOWN) is None
+    assert unlearned("バイバイと手を振る", KNOWN) is None  # not ハイハイ, which crawls
+
+
+def test_no_development_sentence_of_what_is_known_is_told() -> None:
+    path = Path(__file__).parents[3] / "benchmarks" / "development.yaml"
+    told = [
+        line
+        for row in parse_yaml(path.read_text(encoding="utf-8"), str(path))
+        for text in row["text"]
+        if (line := unlearned(text, [row["labels"]["action"]]))
+    ]
+    assert len(told) <= 2, told
+
+
+@given(st.text(max_size=60))
+def test_any_text_can_be_asked(text: str) -> None:
+    line = unlearned(text, [])
+    assert line is None or line.endswith("which this model has not learned")
