@@ -117,6 +117,23 @@ def test_models_that_it_cannot_run_are_refused(tmp_path: Path) -> None:
 
 
 @BROWSER
+@pytest.mark.parametrize(
+    "prompt",
+    ["elle marche et bâille", "他敬礼然后走", "she walks and yawns", "dreht den Kopf nach links"],
+)
+def test_what_nobody_taught_is_told_as_by_the_command(
+    prompt: str, browser: Browser, generator: MotionGenerator
+) -> None:
+    made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 1 }}], seed: 0 }}")
+    [line] = generator.sentences.scope_warnings([prompt])
+    assert line is not None
+    said, asked = line.removeprefix("prompt ").split(" asks ")
+    assert (
+        f"“{said[1:-1]}” asks {asked.replace(chr(39), '“', 1).replace(chr(39), '”', 1)}."
+        in text_of(browser, "warnings")
+    )
+
+
 @pytest.mark.parametrize("language", PROMPTS)
 def test_a_sentence_gives_what_the_command_line_gives(
     language: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
