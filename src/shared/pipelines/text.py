@@ -91,7 +91,7 @@ class SentenceGenerator:
         self.card, self.text = generator.card, generator.text
         self._read: dict[str, list[Clause]] = {}
         self._scoped: dict[str, ScopeResult | None] = {}
-        self._bent: dict[str, float] = {}
+        self._bent, self._told = dict[str, float](), set[str]()
         self._heights: dict[tuple[str, int], float] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
@@ -127,6 +127,10 @@ class SentenceGenerator:
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
         fit = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
+        for prompt in (one for one in dict.fromkeys(asked) if one not in self._told):
+            for warning in filter(None, self._warnings(prompt, again=False)):
+                log.warning("%s", warning)
+        self._told.update(asked)
         plain = [index for index, one in enumerate(fit) if one]
         made: dict[int, list[Motion]] = {}
 
@@ -165,8 +169,6 @@ class SentenceGenerator:
             if guidance_scale is None:
                 scale = INSISTING * self.generator.network.generation.guidance_scale
         for index in (index for index, one in enumerate(fit) if not one):
-            for warning in filter(None, self._warnings(prompts[index], again=False)):
-                log.warning("%s", warning)
             made[index] = []
             for sample in range(num_samples):
                 own = replace(sampling, seed=derived_seed(seed, 1000 * sample))
@@ -186,6 +188,7 @@ class SentenceGenerator:
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
         """For each prompt, a line for the first of its clauses that is far from what is known."""
+        self._told.update(prompts)
         return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
