@@ -203,6 +203,11 @@ def require_same_run(checkpoint: Checkpoint, identity: dict[str, Any]) -> None:
     )
     for key in sorted({*before, *identity}):
         if before.get(key) != identity.get(key):
+            if not {key} <= before.keys() & identity.keys():
+                raise UsageError(
+                    f"cannot resume {checkpoint.folder}: it is a run of another stage, or of"
+                    f" another version ({key}); choose another --output"
+                )
             raise UsageError(
                 f"cannot resume {checkpoint.folder}: {key} was {before.get(key)!r} and is now"
                 f" {identity.get(key)!r}; give the old value or choose another --output"

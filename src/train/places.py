@@ -28,6 +28,7 @@ from ..shared.model.clip.core import (
 )
 from ..shared.model.clip.out_of_domain import OFTENER
 from ..shared.model.clip.tokenizer import PromptTokenizer
+from .run_log import announce
 from .task import generator, numpy_generator
 from .text_stages import with_places
 
@@ -131,6 +132,7 @@ def _combination(labels: Labels) -> Combination:
 
 
 OLD_CAPTIONS = 16  # of each known action and language
+TOLD_EVERY = 100  # steps of the tower
 TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
 TOWER_RATE = 5e-2
 PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little
@@ -222,7 +224,9 @@ def with_new_places(
     part = TOWER_BATCH // 4
     with torch.random.fork_rng():
         torch.manual_seed(seed)
-        for _ in range(steps):
+        for step in range(steps):
+            if step and step % TOLD_EVERY == 0:
+                announce(f"text tower: step {step} of {steps}")
             news, *kept = (
                 torch.randint(pool.start, pool.stop, (parts * part,), generator=draws)
                 for pool, parts in pools

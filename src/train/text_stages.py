@@ -9,6 +9,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -127,7 +128,10 @@ def validation_set(config: TrainConfig, data: PreparedData) -> TextMotionDataset
     try:
         return split_set(config, data, "val")
     except ValueError:
-        announce("no validation: the data is too little to hold clips back")
+        announce(
+            "no validation: no clip is in the split `val`, for little data; figures are those of"
+            " training clips alone"
+        )
         return None
 
 
@@ -167,13 +171,16 @@ def trained_card(
     kind: str, config: TrainConfig, network: NetworkConfig, data: PreparedData, **noted: Any
 ) -> ModelCard:
     """The card of what a run learned from these clips."""
+    clips = data.records("train")
+    some = clips[:: -(-len(clips) // SCOPE_CAPTIONS) or 1]
+    spoken = {code for record in some for code in data.captions(record)}
     return ModelCard(
         kind=kind,
         name=Path(config.output).name,
         trained=True,
         network=network,
         tags=data.tags,
-        languages=config.languages,
+        languages=tuple(code for code in config.languages if code in spoken) or config.languages,
         data=data.manifest_hash,
         **noted,
     )
@@ -232,6 +239,7 @@ def network_of_model(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
     return card.network
 
 
+MOST_NAMED = 300  # captions that stand for actions
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector
 CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
 IDEOGRAPHS = (0x4E00, 0x9FFF)
@@ -249,17 +257,20 @@ def fit_scope(
 
     Sentences of known actions kept out of training make a worse calibration: the detector then
     trusts words that nobody knows (docs/experiments.md, section 23). Actions `without` are unknown.
+    Where no clip has labels, the first captions of the clips, those of most clips before others,
+    stand for actions.
     """
     action_of: dict[str, str] = {}
     # of a label group every clip that has words of its own
     distinct = {record.group + str(record.captions): record for record in data.records("train")}
+    name_of = _names(data, distinct.values())
     for record in distinct.values():
         if record.tag in without:
             continue
         captions = data.captions(record)
         for language in languages:
             for text in captions.get(language, []):
-                action_of.setdefault(text, record.tag)
+                action_of.setdefault(text, name_of.get(record.id, record.tag))
     texts = sorted(action_of)
     texts = texts[:: -(-len(texts) // SCOPE_CAPTIONS)]
     embeddings = encode_captions(tower, tokenizer, texts).numpy()
@@ -272,6 +283,18 @@ def fit_scope(
     if len(set(scope.actions) - {""}) < 2:  # nothing to take one for another
         return scope
     return _calibrated(scope, texts, actions, languages, tower, tokenizer)
+
+
+def _names(data: PreparedData, records: Iterable[ClipRecord]) -> dict[str, str]:
+    """What stands for the action of clips, by their ids, where none has labels."""
+    if any(record.tag for record in data.records("train")):
+        return {}
+    first = {
+        record.id: next((text for texts in data.captions(record).values() for text in texts), "")
+        for record in records
+    }
+    named = {text for text, _ in Counter(first.values()).most_common(MOST_NAMED)}
+    return {clip: text for clip, text in first.items() if text in named}
 
 
 def _calibrated(

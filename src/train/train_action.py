@@ -15,6 +15,7 @@ given the very place of plain clips (places.py) moves aside. With
 Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 """
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -37,6 +38,9 @@ from ..shared.model.diffusion import GaussianDiffusion
 from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.losses import GenerationLoss
 from ..shared.model.generation.motion_generator import TextToMotion
+from ..shared.motion.features import HEIGHT, ROOT_ROW, encode_features, heading_joints
+from ..shared.motion.rotations import rotation_6d_to_matrix
+from ..shared.motion.skeleton import NUM_JOINTS
 from .launch import STAGES
 from .places import apart, old_captions, pooled, with_new_places, within_reach
 from .run_log import announce
@@ -66,6 +70,7 @@ PLAIN = "plain"  # clips without a style
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of a combination's captions that have to agree on its place
 SAME = 1e-6  # in cosine, of two places that are one
+TOLD, MOST_TOLD, MOST_CLIPS, LONGEST = 4, 12, 40, 4.0  # motions, actions, clips, seconds
 ASIDE = 0.3  # how far a style moves from where plain clips are, too
 
 
@@ -344,8 +349,23 @@ class ActionTask(Task):
         return denoising_losses(module, as_features(batch.place), batch, self.loss)
 
     def validation(self, module: nn.Module) -> dict[str, float]:
-        """`evaluate-requests` and `calibrate` tell more than a loss on a few clips would."""
-        return {}
+        """Of four motions of each action: how far a joint is from where it is in the nearest frame
+        of the action's clips, in cm, and how fast joints move by how fast they do there, both in
+        the heading frame. Who holds a pose of a clip has 0 and 0.
+        """
+        maker, figures = self._generator(module), dict[str, float]()
+        for action in self.actions[:MOST_TOLD]:
+            clips = [record for record in self.train.records if record.tag == action]
+            texts = [self._captions(record)[0] for record in clips][:: -(-len(clips) // TOLD)]
+            prompts = [texts[i % len(texts)] for i in range(TOLD)]
+            seconds = min(sum(r.num_frames for r in clips) / len(clips) / 30.0, LONGEST)
+            made = maker.generate(prompts, seconds=max(seconds, 1.0), seed=self.config.seed)
+            shown = [_joints(encode_features(motion)) for motion in made]
+            real = [_joints(self.data.features(record)) for record in clips[:MOST_CLIPS]]
+            apart = torch.cdist(torch.cat(shown).flatten(1), torch.cat(real).flatten(1)).amin(1)
+            figures[f"{action}-cm"] = 100 * float(apart.mean()) / math.sqrt(real[0].shape[1])
+            figures[f"{action}-speed"] = _speed(shown) / max(_speed(real), 1e-6)
+        return figures
 
     # ------------------------------------------------------------ results
 
@@ -411,6 +431,17 @@ class ActionTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._generator(module).save_pretrained(folder)
+
+
+def _joints(features: Tensor) -> Tensor:
+    """Joints [T,K,3] in the heading frame of features [T,R,6], metres."""
+    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
+    return heading_joints(rotations, features[:, ROOT_ROW, HEIGHT])
+
+
+def _speed(motions: Sequence[Tensor]) -> float:
+    """Mean speed of the joints [T,K,3] of some motions, metres a frame."""
+    return float(torch.cat([each.diff(dim=0).norm(dim=-1) for each in motions]).mean())
 
 
 def unshared(places: dict[str, int], others: Iterable[Tensor]) -> dict[str, int]:

@@ -14,6 +14,7 @@ from tiny_task import TinyTask
 
 from src.shared.config_schema import TrainConfig
 from src.shared.errors import UsageError, UserError
+from src.train.checkpoint import latest_checkpoint, require_same_run
 from src.train.engine import Trainer
 
 BASE: dict[str, Any] = {
@@ -103,6 +104,14 @@ def test_resuming_with_other_settings_names_the_setting(tmp_path: Path) -> None:
     run(tmp_path)
     with pytest.raises(UsageError, match=r"was 4 and is now 8"):
         run(tmp_path, resume=True, batch_size=8)
+
+
+def test_resuming_a_run_of_another_stage_says_so(tmp_path: Path) -> None:
+    run(tmp_path)
+    checkpoint = latest_checkpoint(tmp_path / "checkpoints")
+    assert checkpoint is not None
+    with pytest.raises(UsageError, match=r"a run of another stage, .*\(cosine\)"):
+        require_same_run(checkpoint, {**checkpoint.state["identity"], "cosine": 0.2})
 
 
 def test_fewer_steps_than_done_is_refused(tmp_path: Path) -> None:

@@ -99,6 +99,8 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
     for kind in ("gestures", "still"):  # the clips are bows
         assert {*getattr(new.scope, kind)} == {*getattr(old.scope, kind), "flop"}
     assert new.generate(["a person flops"], seconds=1.0, steps=2, tags=["flop"])[0].num_frames == 30
+    figures = trainer.task.figures  # a tiny network is not near; nobody is nearer than a copy
+    assert figures.keys() == {"flop-cm", "flop-speed"} and min(figures.values()) > 0
     # and once more, on top of that: nothing is new any longer
     with pytest.raises(UserError, match=r"no action that .* does not know"):
         ActionTask(action_config(flops, config.output, tmp_path / "again"), network)

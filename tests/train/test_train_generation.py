@@ -70,6 +70,33 @@ def test_the_scope_knows_the_words_of_every_clip(prepared: Path, clip: Path) -> 
     assert {text.split()[0] for text in said.values()} <= scope.words
 
 
+@torch.no_grad()
+def test_captions_stand_for_actions_where_no_clip_has_labels(prepared: Path, clip: Path) -> None:
+    data, bundle = PreparedData.open(prepared), ClipBundle.from_pretrained(clip)
+    verbs = [
+        "zigs",
+        "zags",
+        "flips",
+        "nods",
+        "crawls",
+        "swims",
+        "prays",
+        "sings",
+        "climbs",
+        "digs",
+        "mows",
+        "rows",
+    ]
+    said = [f"a person {verb} about" for verb in verbs]
+    data.__dict__["_all_records"] = [
+        replace(record, tag="", labels={}, captions={"en": [said[number % 12]]})
+        for number, record in enumerate(data.records())
+    ]
+    scope = fit_scope(data, ("en",), bundle.clip.text, bundle.tokenizer)
+    assert {*scope.actions} == {*said} and not {"a", "person"} & scope.key_words.keys()
+    assert {*verbs} <= scope.key_words.keys()
+
+
 def test_fine_tuning_starts_where_another_run_ended(
     prepared: Path, clip: Path, tmp_path: Path
 ) -> None:

@@ -294,6 +294,11 @@ def recognizer_of(
     Raises UserError: fewer than two actions to tell apart."""
     clips = spread_over_groups(judged_by(_captioned(data)), JUDGING_CLIPS, seed)
     progress(f"a judge of {len(clips)} clips")
+    if len({record.tag for record in clips}) < 2:
+        raise UserError(
+            f"{data.folder}: a judge tells labelled actions apart and needs two or more; prepare"
+            " the clips once more with others, or with procedural ones (`--synthetic 300`)"
+        )
     clips, seen = examples(data, clips, round(SECONDS * 30))
     try:
         return ActionRecognizer.fit(clips, seen, np.stack([*map(descriptor, seen)]))

@@ -371,10 +371,13 @@ def unlearned_words() -> list[tuple[list[str], str, bool]]:
 def unlearned(text: str, known: Collection[str]) -> str | None:
     """A line if a text asks for what is none of the known actions, whatever else it asks for."""
     said = [_between_blanks(text, loose=loose) for loose in (False, True)]
+    names = [_between_blanks(name, loose=False) for name in known]  # some are captions
     found = [
         (said[loose].index(words), words)
         for actions, words, loose in unlearned_words()
-        if words in said[loose] and not any(action in known for action in actions)
+        if words in said[loose]
+        and not any(action in known for action in actions)
+        and not any(words in name for name in names)
     ]
     if all_words().head_turns.search(text):
         asked = "the head alone to turn"

@@ -40,8 +40,9 @@ export class Director {
   /** A line if a text asks for what is none of the known actions, whatever else it asks for. */
   unlearned(text) {
     const said = [false, true].map((loose) => betweenBlanks(text, loose)), known = new Set(this.scope.meta.actions);
+    const names = [...known].map((name) => betweenBlanks(name, false)); // some are captions
     const found = this.settings.unlearned
-      .filter(([actions, words, loose]) => said[Number(loose)].includes(words) && !actions.some((action) => known.has(action)))
+      .filter(([actions, words, loose]) => said[Number(loose)].includes(words) && !actions.some((action) => known.has(action)) && !names.some((name) => name.includes(words)))
       .map(([, words, loose]) => [said[Number(loose)].indexOf(words), words]);
     const line = (asked) => `“${text}” asks ${asked}, which this model has not learned.`;
     if (this.reader.turnsHead(text)) return line("the head alone to turn");

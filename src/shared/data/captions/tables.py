@@ -244,6 +244,11 @@ def _table_rows(path: Path, text: str, delimiter: str) -> list[_Row]:
     if "clip" in header and {"caption", "action"} & set(header):
         _check_columns(path, [cell.strip().lower() for cell in lines[0][1]], header)
         columns, lines = header, lines[1:]
+    for number, row in lines:
+        if any(cell.strip() for cell in row[len(columns) :]):
+            remedy = "take out the tabs" if quoting else "write a caption with commas in quotes"
+            what = f"{len(row)} cells for {len(columns)} columns"
+            raise UserError(f"captions {path}, line {number}: {what}; {remedy}")
     cells = [(number, [*zip(columns, row, strict=False)]) for number, row in lines]
     # Of several columns for one key the first counts.
     return [(f"line {number}", dict(reversed(pairs))) for number, pairs in cells]

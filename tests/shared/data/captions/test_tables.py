@@ -63,6 +63,12 @@ def test_languages_and_several_captions(tmp_path: Path) -> None:
     [
         ("a.csv", "", "no captions"),
         ("a.csv", "walk,walks\nrun,\n", "line 2: no clip or no caption"),
+        (
+            "a.csv",
+            "clip,caption\na,walks, twice\n",
+            "line 2: 3 cells for 2 columns; write",
+        ),
+        ("a.tsv", "clip\tcaption\na\twalks\ttwice\n", "line 2: 3 cells for 2 columns; take out"),
         ("a.csv", "clip,action,start\na,walk,soon\n", "line 2: start 'soon' is not a number"),
         ("a.csv", "clip,action,start,end\na,walk,2,2\n", "start 2 is not before end 2"),
         ("a.csv", "clip,action,repeat\na,walk,1.5\n", "repeat 1.5: must be a whole number"),
