@@ -8,7 +8,7 @@ that is of it decides where no word does.
 
 import math
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -24,7 +24,10 @@ from .words import (
     UNITS,
     all_words,
     bare,
+    begins_after,
+    names_both,
     plain_text,
+    side_of,
     tidied,
     value_of,
 )  # fmt: skip
@@ -60,6 +63,11 @@ class Reading(NamedTuple):
 
 Read = Callable[[str], Reading]
 GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
+PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
+    "ups": (GOT_UP, STANDS),
+    "bends": (Reading("turn", 3.0), "turns left"),
+    "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
+}
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -118,10 +126,14 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     one clause, with what the arms do meanwhile.
     """
     words, found = all_words(), list[Clause]()
-    stands = read(STANDS).action == "stand"
+    learned = {
+        name: own for name, (own, said) in PLAINLY.items() if read(said).action == own.action
+    }
+    stands = "ups" in learned
 
     def known(text: str) -> Reading:
-        return GOT_UP if stands and words.ups.match(text) else read(text)
+        own = (learned[name] for name in learned if vars(words)[name].fullmatch(text))
+        return next(own, None) or read(_bared(text, read))
 
     text = _staying(plain_text(tidied(sentence)), known)
     for whole in _ordered(text, known):
@@ -143,9 +155,28 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
             found.insert(0, Clause(SITS, seconds=BEFORE))
         elif first == STANDS and words.ups.match(found[-1].text) and len(found) == 2:
             found[0] = replace(found[0], text=SITS)  # "gets up after three seconds"
-    if not stands:
-        return found
-    return [replace(each, text=words.ups.sub(STANDS, each.text)) for each in found]
+    return [_plainly(each, learned, alone=len(found) == 1, read=read) for each in found]
+
+
+def _plainly(clause: Clause, learned: Collection[str], read: Read, *, alone: bool) -> Clause:
+    """A clause in words of the tower; a bend that is all there is may be a walk."""
+    words, arms, text = all_words(), clause.meanwhile, clause.text
+    if arms or not alone:
+        text = _bared(text, read)
+    if "ups" in learned:
+        text = words.ups.sub(STANDS, text)
+    if "bends" in learned and not alone and _surely(read(text)) != "turn":
+        text = words.bends.sub(f"turns {side_of(text)}", text)
+    if "posed" in learned and words.posed.fullmatch(arms) and _surely(read(arms)) != "raise":
+        arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
+    return replace(clause, text=text, meanwhile=arms)
+
+
+def _bared(text: str, read: Read) -> str:
+    """A text, without its subject where only then it is sure what it asks for."""
+    rest = all_words().subject.sub("", text)
+    unsure = rest != text and _surely(read(text)) is None
+    return rest if unsure and _surely(read(rest)) else text
 
 
 def whole(sentence: str, found: Sequence[Clause]) -> str:
@@ -243,30 +274,18 @@ def _ordered(text: str, read: Read) -> list[str]:
     ):
         for match in () if found else pattern.finditer(text):
             left, right = text[: match.start()], text[match.end() :]
-            if pattern is words.then and _begins_after(text, match):
+            if pattern is words.then and begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
             if pattern in (words.before, words.after) and not _is_time(text, match, right, read):
                 continue
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
-                left, right = _around(left, right, read)
+                left, right = _around(left, right, match[0], read)
             if left.strip(EDGES) and right.strip(EDGES):
                 found = (right, left) if swapped else (left, right)
                 break
     if found:
         return [part for each in found for part in _ordered(each, read)]
     return [_trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
-
-
-def _begins_after(text: str, then: re.Match[str]) -> bool:
-    """Whether a word of order is the first one of a longer phrase that says the opposite."""
-    word = then[0].lstrip(EDGES)
-    after = all_words().after.match(text, then.end() - len(word))
-    units = all_words().units
-    if after is None or any(
-        units[name].match(text, after.end()) for name in ("seconds", "minutes")
-    ):
-        return False
-    return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
 
 def _is_time(text: str, word: re.Match[str], right: str, read: Read) -> bool:
@@ -287,14 +306,15 @@ def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     return halves if all(half.strip(EDGES) for half in halves) else None
 
 
-def _around(left: str, right: str, read: Read) -> tuple[str, str]:
+def _around(left: str, right: str, then: str, read: Read) -> tuple[str, str]:
     """Clauses on both sides of a word of order; where it stands late in its own clause ("und winkt
     dann"), that begins at the conjunction or comma before it."""
     borders = list(all_words().joint.finditer(left))
     own = left[borders[-1].end() :] if borders else ""
     if not own.strip(EDGES):
         return left, right
-    if right.strip(EDGES):  # "walks in, waves then bows" is three, "und dreht sich dann um" one
+    late = all_words().verb_then.match(then)  # "und läuft dann langsam rückwärts" is one
+    if right.strip(EDGES) and not late:  # "walks in, waves then bows" is three
         two = _differ(read(_trimmed(own)), read(_trimmed(right)))
         if two or len(own.split()) > 3 or re.search(CJK_SIGN, own):
             return left, right
@@ -420,7 +440,7 @@ def _parted(text: str, read: Read) -> Clause | None:
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
     said = bool(marks or words.throughout.search(text))
-    each = _names_both(text)
+    each = names_both(text)
     for cuts, sure, enough in (
         (marks, SURE_AT_MARK, SURE_AT_MARK),
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
@@ -438,14 +458,12 @@ def _parted(text: str, read: Read) -> Clause | None:
         ]
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
+    for pose in words.posed.finditer(text):
+        rest = f"{text[: pose.start()]} {text[pose.end() :]}"
+        pair = _pair(rest, pose[0], read, SURE)
+        if pair and (pair.one_arm_each or not pair.arms_alone):
+            return pair.clause
     return None
-
-
-def _names_both(text: str) -> bool:
-    """Whether a text names the left and the right, or one of them and the other one."""
-    words = all_words()
-    said = words.no_side.sub(" ", text)
-    return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
 
 
 @dataclass(frozen=True)
@@ -497,24 +515,6 @@ def _naming(half: str, side: str) -> str:
     if side not in _SIDES or side_of(half) == side:
         return half
     return words.other.sub(lambda said: words.others[bare(said[0])][side == "right"], half)
-
-
-def side_of(text: str) -> str:
-    """left, right, or both where a text names neither or both."""
-    words = all_words()
-    said = words.no_side.sub(" ", text)
-    left, right = (bool(side.search(said)) for side in (words.left, words.right))
-    return "both" if left == right else "left" if left else "right"
-
-
-def goes_round(text: str) -> bool:
-    """Whether a text tells of a way in a circle."""
-    return bool(all_words().round.search(text)) and not all_words().corner.search(text)
-
-
-def turns_head(text: str) -> bool:
-    """Whether a text asks the head alone to turn."""
-    return bool(all_words().head_turns.search(text))
 
 
 # ---------------------------------------------------------------- measure

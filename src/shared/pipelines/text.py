@@ -57,10 +57,10 @@ from .path import (
     time_path,
     turned,
 )
-from .sentence import GOING, LOW, Clause, Reading, clauses, goes_round, side_of, turns_head, whole
+from .sentence import GOING, LOW, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .words import unlearned
+from .words import goes_round, side_of, turns_head, unlearned
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}

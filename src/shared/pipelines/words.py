@@ -99,11 +99,13 @@ class Words:
         idioms = {said: plain for table in tables for plain, many in table.get("idioms", {}).items()
                   for said in many}  # fmt: skip
         self.idiom = re.compile(_any(idioms), re.I)
-        self.plainly = {bare(said): plain for said, plain in idioms.items()}
+        plainly = {said.rpartition("|")[2].partition("/")[0]: idioms[said] for said in idioms}
+        self.plainly = {bare(said): plain for said, plain in plainly.items()}
         nouns = rf"{_any(all_of('prepositions'))}\s*{_any(all_of('own'))}"
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
-        self.aside = re.compile(_any([*owned, *all_of("limbs"), *all_of("aside")]), re.I)
+        asides = [*all_of("limbs"), *all_of("aside"), *all_of("throughout")]
+        self.aside = re.compile(_any([*owned, *asides]), re.I)
         self.lacking = re.compile(_any(all_of("lacking")), re.I)
         denial = rf"\s*{_any(all_of('denied'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.denial = re.compile(rf"(?:{denial})+", re.I)
@@ -182,8 +184,26 @@ class Words:
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
         someone += rf"|{CJK_SIGN}{{1,4}})?"
         self.downs = re.compile(rf"^{someone}{_any(all_of('downs'))}", re.I)
+        subject = rf"^(?:{own}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
+        self.subject = re.compile(subject, re.I)
+        bends = [way.replace("SIDE", side) for table in tables for way in table["bends"]
+                 for side in table["sides"]]  # fmt: skip
+        self.bends = re.compile(
+            rf"^{someone}{_any(bends)}(?:\s*{_any(all_of('bending'))})*\W*$", re.I
+        )
+        self.verb_then = re.compile(rf"\s*{_any(all_of('verb_then'))}", re.I)
         again = rf"(?:\s*{_any(all_of('again'))})*"
         self.ups = re.compile(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", re.I)
+        # "with both arms raised", "mit erhobenen Armen", "arms up" behind a comma, in whole phrases
+        sided = _any(all_of("sided"))
+        whose = rf"(?:(?:{_any(all_of('own'))}|{sided})\s+)*"
+        up = _any(all_of("aloft"))
+        arms = _any(sorted({*all_of("limbs")} - {*all_of("fists")}))
+        higher = rf"(?:\s+{_any(all_of('higher'))})*"
+        raised = rf"(?:{whose}{arms}\s+(?:{sided}\s+)?{up}|{whose}{up}\s+{arms}){higher}"
+        alone = rf"(?:^|(?<=[,;:、]))\s*{raised}(?=\s*(?:$|{_STOPS}))"
+        having, posed = _any(all_of("having")), _any(all_of("posed"))
+        self.posed = re.compile(rf"{having}\s+{raised}|{alone}|{posed}", re.I)
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))
         there = rf"(?:\s*{_any(all_of('there'))})"
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
@@ -413,6 +433,43 @@ def value_of(text: str) -> float:
 
 def _value_of_sign(sign: str) -> int:
     return 2 if sign == "两" else _ONES.index(sign) + 1
+
+
+def side_of(text: str) -> str:
+    """left, right, or both where a text names neither or both."""
+    words = all_words()
+    said = words.no_side.sub(" ", text)
+    left, right = (bool(side.search(said)) for side in (words.left, words.right))
+    return "both" if left == right else "left" if left else "right"
+
+
+def names_both(text: str) -> bool:
+    """Whether a text names the left and the right, or one of them and the other one."""
+    words = all_words()
+    said = words.no_side.sub(" ", text)
+    return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
+
+
+def begins_after(text: str, then: re.Match[str]) -> bool:
+    """Whether a word of order is the first one of a longer phrase that says the opposite."""
+    word = then[0].lstrip(EDGES)
+    after = all_words().after.match(text, then.end() - len(word))
+    units = all_words().units
+    if after is None or any(
+        units[name].match(text, after.end()) for name in ("seconds", "minutes")
+    ):
+        return False
+    return len(after[0].rstrip()) > len(word.rstrip(EDGES))
+
+
+def goes_round(text: str) -> bool:
+    """Whether a text tells of a way in a circle."""
+    return bool(all_words().round.search(text)) and not all_words().corner.search(text)
+
+
+def turns_head(text: str) -> bool:
+    """Whether a text asks the head alone to turn."""
+    return bool(all_words().head_turns.search(text))
 
 
 # ---------------------------------------------------------------- the same in a browser

@@ -5,6 +5,11 @@ const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180;
 const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
 const GOT_UP = { action: "stand", certainty: 3, arms: false };
+const PLAINLY = { // what whole patterns ask for, and words of a tower that knows them
+  ups: [GOT_UP, STANDS],
+  bends: [{ action: "turn", certainty: 3, arms: false }, "turns left"],
+  posed: [{ action: "raise", certainty: 3, arms: true }, "raises both arms"],
+};
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
@@ -61,13 +66,18 @@ export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
    *  { action, certainty, arms } */
   constructor({ patterns, ...words }, read) {
-    const stands = () => read(STANDS).action === "stand";
-    Object.assign(this, words, { stands, read: (text) => (this.first.ups.test(text) && stands() ? GOT_UP : read(text)) });
-    this.first = {}; this.each = {}; this.head = {}; this.there = {};
+    const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
+    const known = (text) => {
+      const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
+      return name ? PLAINLY[name][0] : read(this.bared(text));
+    };
+    Object.assign(this, words, { learned, plainRead: read, read: known });
+    this.first = {}; this.each = {}; this.head = {}; this.entire = {}; this.there = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
       this.each[name] = new RegExp(pattern, "giu");
       this.head[name] = new RegExp(`^(?:${pattern})`, "iu");
+      if (name in PLAINLY) this.entire[name] = new RegExp(`^(?:${pattern})$`, "iu");
     }
   }
 
@@ -86,13 +96,31 @@ export class SentenceReader {
     }
     let real = found.filter((clause) => clause.text);
     if (!real.length) real = [plainClause(sentence)];
-    const { text: first } = real[0], stands = this.stands();
+    const { text: first } = real[0], stands = this.learned("ups");
     if (this.first.downs.test(first) && LOW.includes(this.read(first).action)) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
     else if (stands && LOW.includes(this.read(SITS).action)) {
       if (this.first.ups.test(first)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
       else if (first === STANDS && real.length === 2 && this.first.ups.test(real[1].text)) real[0] = { ...real[0], text: SITS }; // "gets up after three seconds"
     }
-    return stands ? real.map((each) => ({ ...each, text: each.text.replace(this.first.ups, STANDS) })) : real;
+    return real.map((each) => this.inPlainWords(each, real.length === 1));
+  }
+
+  /** A clause in words of the tower; a bend that is all there is may be a walk. */
+  inPlainWords(clause, alone) {
+    let { text, meanwhile } = clause;
+    if (meanwhile || !alone) text = this.bared(text);
+    if (this.learned("ups")) text = text.replace(this.first.ups, STANDS);
+    if (!alone && this.first.bends.test(text) && this.learned("bends") && surely(this.plainRead(text)) !== "turn")
+      text = text.replace(this.first.bends, `turns ${this.sideOf(text)}`);
+    if (this.entire.posed.test(meanwhile) && this.learned("posed") && surely(this.plainRead(meanwhile)) !== "raise")
+      meanwhile = `raises ${clause.side} arm${clause.side === "both" ? "s" : ""}`;
+    return { ...clause, text, meanwhile };
+  }
+
+  /** A text, without its subject where only then it is sure what it asks for. */
+  bared(text) {
+    const rest = text.replace(this.first.subject, "");
+    return rest !== text && !surely(this.plainRead(text)) && surely(this.plainRead(rest)) ? rest : text;
   }
 
   /** A sentence as one sample hears it: without what it denies, if one plain clause is left. */
@@ -209,7 +237,7 @@ export class SentenceReader {
         let left = text.slice(0, start), right = text.slice(stop);
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
         if ((name === "before" || name === "after") && !this.isTime(text, start, right)) continue;
-        if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right);
+        if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right, text.slice(start, stop));
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
         break;
@@ -241,10 +269,10 @@ export class SentenceReader {
     return halves.every((half) => strip(half)) ? halves : null;
   }
 
-  around(left, right) {
+  around(left, right, then) {
     const last = spans(left, this.each.joint).at(-1), own = last ? left.slice(last[1]) : "";
     if (!strip(own)) return [left, right];
-    if (strip(right)) {
+    if (strip(right) && !this.head.verb_then.test(then)) { // "und läuft dann langsam rückwärts" is one
       const two = differ(this.read(this.trimmed(own)), this.read(this.trimmed(right)));
       if (two || own.trim().split(/\s+/u).length > 3 || CJK.test(own)) return [left, right];
     }
@@ -332,6 +360,10 @@ export class SentenceReader {
         if (!found || pair.certainty > found.certainty) found = pair;
       }
       if (found) return found.clause;
+    }
+    for (const [start, stop] of spans(text, this.each.posed)) {
+      const pair = this.pair(`${text.slice(0, start)} ${text.slice(stop)}`, text.slice(start, stop), SURE);
+      if (pair && (pair.oneArmEach || !pair.armsAlone)) return pair.clause;
     }
     return null;
   }

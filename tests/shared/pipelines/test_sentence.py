@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.config_loader import parse_yaml
-from src.shared.pipelines.sentence import Clause, Reading, clauses, goes_round, side_of
-from src.shared.pipelines.words import unlearned
+from src.shared.pipelines.sentence import Clause, Reading, clauses
+from src.shared.pipelines.words import goes_round, side_of, unlearned
 
 ACTIONS = {
     "walk": ("walk", "camina", "march", "geht", "geh", "lauf", "歩", "走"),
