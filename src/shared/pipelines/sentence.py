@@ -160,9 +160,8 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
 
 def _plainly(clause: Clause, learned: Collection[str], read: Read, *, alone: bool) -> Clause:
     """A clause in words of the tower; a bend that is all there is may be a walk."""
-    words, arms, text = all_words(), clause.meanwhile, clause.text
-    if arms or not alone:
-        text = _bared(text, read)
+    words, arms = all_words(), clause.meanwhile
+    text = _bared(clause.text, read) if arms or not alone else clause.text
     if "ups" in learned:
         text = words.ups.sub(STANDS, text)
     if "bends" in learned and not alone and _surely(read(text)) != "turn":
@@ -276,7 +275,11 @@ def _ordered(text: str, read: Read) -> list[str]:
             left, right = text[: match.start()], text[match.end() :]
             if pattern is words.then and begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
-            if pattern in (words.before, words.after) and not _is_time(text, match, right, read):
+            bound = pattern in (words.before, words.after)
+            if bound and words.ended.search(left) and words.comma.search(right):
+                found = left, text[match.start() :]  # "Sits. Once he has waved, he bows."
+                break
+            if bound and not _is_time(text, match, right, read):
                 continue
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
                 left, right = _around(left, right, match[0], read)
@@ -459,7 +462,7 @@ def _parted(text: str, read: Read) -> Clause | None:
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
     for pose in words.posed.finditer(text):
-        rest = f"{text[: pose.start()]} {text[pose.end() :]}"
+        rest = f"{text[: pose.start()].rstrip()} {text[pose.end() :].lstrip()}"
         pair = _pair(rest, pose[0], read, SURE)
         if pair and (pair.one_arm_each or not pair.arms_alone):
             return pair.clause

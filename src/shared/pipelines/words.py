@@ -105,6 +105,7 @@ class Words:
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
         asides = [*all_of("limbs"), *all_of("aside"), *all_of("throughout")]
+        self.ended = re.compile(r"[.!?;。！？；…]\s*$")
         self.aside = re.compile(_any([*owned, *asides]), re.I)
         self.lacking = re.compile(_any(all_of("lacking")), re.I)
         denial = rf"\s*{_any(all_of('denied'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
@@ -197,7 +198,7 @@ class Words:
         # "with both arms raised", "mit erhobenen Armen", "arms up" behind a comma, in whole phrases
         sided = _any(all_of("sided"))
         whose = rf"(?:(?:{_any(all_of('own'))}|{sided})\s+)*"
-        up = _any(all_of("aloft"))
+        up = _any([*all_of("aloft"), *all_of("higher")])
         arms = _any(sorted({*all_of("limbs")} - {*all_of("fists")}))
         higher = rf"(?:\s+{_any(all_of('higher'))})*"
         raised = rf"(?:{whose}{arms}\s+(?:{sided}\s+)?{up}|{whose}{up}\s+{arms}){higher}"

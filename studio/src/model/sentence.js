@@ -236,7 +236,12 @@ export class SentenceReader {
       for (const [start, stop] of found ? [] : spans(text, this.each[name])) {
         let left = text.slice(0, start), right = text.slice(stop);
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
-        if ((name === "before" || name === "after") && !this.isTime(text, start, right)) continue;
+        const bound = name === "before" || name === "after";
+        if (bound && this.first.ended.test(left) && this.first.comma.test(right)) { // "Sits. Once he has waved, he bows."
+          found = [left, text.slice(start)];
+          break;
+        }
+        if (bound && !this.isTime(text, start, right)) continue;
         if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right, text.slice(start, stop));
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
@@ -362,7 +367,7 @@ export class SentenceReader {
       if (found) return found.clause;
     }
     for (const [start, stop] of spans(text, this.each.posed)) {
-      const pair = this.pair(`${text.slice(0, start)} ${text.slice(stop)}`, text.slice(start, stop), SURE);
+      const pair = this.pair(`${text.slice(0, start).trimEnd()} ${text.slice(stop).trimStart()}`, text.slice(start, stop), SURE);
       if (pair && (pair.oneArmEach || !pair.armsAlone)) return pair.clause;
     }
     return null;

@@ -48,6 +48,17 @@ TWO = [
     ("先に手を振って、次に走る", ["手を振って", "走る"]),
     ("先鞠躬再挥手", ["鞠躬", "挥手"]),
     ("after the last jump, he bows", ["the last jump", "he bows"]),
+    ("geht den Flur entlang, biegt dort links ab", ["geht den Flur entlang", "turns left"]),
+    ("tuerce a la izquierda y saluda", ["turns left", "saluda"]),
+    ("il marche, vire à droite", ["il marche", "turns right"]),
+    ("一直走再往左拐", ["一直走", "turns left"]),
+    ("er winkt und läuft dann langsam rückwärts weg", ["er winkt", "läuft langsam rückwärts weg"]),
+    ("elle applaudit et marche ensuite en arrière", ["elle applaudit", "marche en arrière"]),
+    ("nach kurzem Anlauf springt er", ["rennt los", "springt er"]),
+    ("una niña levanta la mano y se va caminando", ["levanta la mano", "camina"]),
+    ("手を振ったら、そのまま後ろに歩く", ["手を振ったら", "後ろに歩く"]),
+    ("走って、しゃがみ、跳び上がる", ["走って", "しゃがんで", "跳び上がる"]),
+    ("走着走着蹦了一下", ["走", "跳了一下"]),
     ("he bows after the second kick", ["the second kick", "he bows"]),
     ("she claps after the next jump", ["the next jump", "she claps"]),
     ("don't run but walk and wave", ["walk", "wave"]),
@@ -238,6 +249,27 @@ def test_what_stays_is_told_from_what_goes_on(
         for each in sentences.clauses(sentence)
     ]
     assert " / ".join(found) == said
+
+
+@pytest.mark.parametrize(
+    ("sentence", "text", "meanwhile"),
+    [
+        ("er rennt mit hochgerissenen Armen über den Platz",
+         "er rennt über den Platz", "mit hochgerissenen Armen"),
+        ("le buteur court, les deux bras levés vers le ciel",
+         "court", "les deux bras levés vers le ciel"),
+        ("ばんざいの格好で歩く", "歩く", "raises both arms"),
+        ("他双手举过头顶走出来", "他 走出来", "双手举过头顶"),
+        ("right arm up, left hand waving, both together", "right arm up", "left hand waving"),
+        ("waves with the left hand raised", "waves with the left hand raised", ""),
+        ("waits with both fists up", "waits with both fists up", ""),
+    ],
+)  # fmt: skip
+def test_raised_arms_by_the_way_are_meanwhile(
+    sentence: str, text: str, meanwhile: str, sentences: SentenceGenerator
+):
+    (clause,) = sentences.clauses(sentence)
+    assert (clause.text, clause.meanwhile) == (text, meanwhile)
 
 
 @pytest.mark.parametrize("sentence", ONE)

@@ -104,6 +104,14 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("jumps before the bow", ["jumps", "the bow"]),
         ("nach der letzten Note verbeugt er sich", ["nach der letzten Note verbeugt er sich"]),
         ("walk slowly, sadly", ["walk slowly, sadly"]),
+        ("walks on, hangs a left, bows", ["walks on", "turns left", "bows"]),
+        ("er geht los und biegt rechts ab", ["er geht los", "turns right"]),
+        ("歩いて、左折して、お辞儀する", ["歩いて", "turns left", "お辞儀する"]),
+        ("she hangs a left", ["she hangs a left"]),
+        ("walks, taking the right of way", ["walks, taking the right of way"]),
+        ("er klatscht und geht dann saluant", ["er klatscht", "geht saluant"]),
+        ("she claps and walks then waves", ["she claps", "walks", "waves"]),
+        ("he bows. Once he has jumped, he waves", ["he bows", "jumped", "he waves"]),
     ],
 )
 def test_commas_part_only_actions_of_their_own(sentence: str, parts: list[str]):
@@ -346,7 +354,7 @@ def test_any_text_has_a_clause(text: str):
         ),
         ("walks, both hands in the air", Clause("walks", meanwhile="both hands in the air")),
         ("la niña camina saludando", Clause("la niña camina", meanwhile="saludando")),
-        ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant")),
+        ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant de la main")),
         ("er geht und winkt dabei", Clause("er geht", meanwhile="winkt")),
         ("両手を上げて歩く", Clause("歩く", meanwhile="両手を上げて")),
         (
