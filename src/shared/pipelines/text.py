@@ -1,11 +1,10 @@
 """Sentences in, motions out: what a sentence says of order and measure is done, too.
 
 A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
-training clips is one sample of the network; all else is a stream of passages, one for each clause,
-with what the clause measures as a constraint: a path of so many metres, a heading that turns by so
-many degrees, in full circles where it asks for a spin or a way round, by a right angle where a walk
-is to turn. Where kinematics tell whether the action is there, and how often, what misses it is
-sampled again (`metrics.measurements`).
+training clips is one sample of the network, claps aside; all else a stream of passages, one for
+each clause, with what it measures as a constraint: a path of so many metres, a heading that turns
+by so many degrees, in full circles where it spins, by a right angle where a walk is to turn. Where
+kinematics tell whether the action is there, what misses it is sampled again.
 """
 
 import logging
@@ -70,7 +69,8 @@ TURN_SECONDS = 2.2  # of a quarter on the spot, led
 TURNING = math.radians(20.0)  # a second: less is no turn
 DOWN, DOWN_SPEED, DOWN_AHEAD = 0.15, 0.43, 6  # metres, m/s, frames before a clause's own
 HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
-ONCE = (2.5, 3.0)  # seconds of one repetition, from … to
+ONCE, CLAP = (2.5, 3.0), (1.8, 2.0)  # seconds of one repetition, from … to; of uncounted claps
+CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST = 1.0  # seconds in which an action can be seen
 UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
@@ -271,17 +271,14 @@ class SentenceGenerator:
         return wanted is None or motion.seconds < LEAST or wanted(measure(motion))
 
     def _better(self, prompt: str, old: Motion, new: Motion) -> Motion:
-        gained = new is not old and self._does(prompt, new) and not self._does(prompt, old)
-        return new if gained else old
+        return new if self._does(prompt, new) and not self._does(prompt, old) else old
 
     def _miss(self, clause: Clause, frames: float) -> Miss | None:
-        """How far a passage of so many frames is from showing what its clause asks for, and, where
-        that is done in place, from ending at rest."""
+        """How far a passage of so many frames is from showing its clause and ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.generator.scope
         action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
-        if scope is None or action is None or frames < LEAST * fps:
-            return None
-        if not (rests := action in scope.gestures) and wanted is None:
+        rests = scope is not None and action in scope.gestures
+        if action is None or frames < LEAST * fps or not (rests or wanted):
             return None
 
         def miss(features: Tensor) -> float:
@@ -326,7 +323,8 @@ class SentenceGenerator:
             return True  # refused there, with a clear line
         parts = self.clauses(prompt)
         fits = self.generator.length_warning(seconds) is None
-        return fits and len(parts) == 1 and parts[0].plain and not self._turns(parts[0])
+        one = len(parts) == 1 and parts[0].plain and self._nearest(parts[0].text) != "clap"
+        return fits and one and not self._turns(parts[0])
 
     def _turns(self, clause: Clause) -> bool:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
@@ -512,13 +510,16 @@ class SentenceGenerator:
             clause = replace(clause, seconds=self._stepping(clause, tag, sampling))
         seconds = clause.seconds or seconds
         given = None
-        passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
+        passage, limits = Passage(clause.text, max(1, round(seconds * fps)), tag), ONCE
+        if clause.count == 1 and self._nearest(clause.text) == "clap":
+            passage, limits = replace(passage, text=CLAPS), CLAP
+            clause = replace(clause, count=max(1, round(seconds / CLAP[1])))
         if self._turns(clause):
             given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
             given = self._led(passage, clause, sampling, timed=exactly is not None)
         elif clause.count > 1:
-            once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
+            once = round(float(np.clip(seconds / clause.count, *limits)) * fps)
             frames = once * clause.count
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)
@@ -553,8 +554,7 @@ class SentenceGenerator:
             sway = self._sway(Passage(clause.text, len(given)), sampling)
             given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
             return given
-        around = 360.0 / SPIN_SPEED
-        circles = max(clause.count, 1)
+        circles, around = clause.count, 360.0 / SPIN_SPEED
         if circles == 1:
             circles = max(round((seconds - 2 * TURN_REST) / around), 1)
         elif clause.seconds is None:
@@ -596,5 +596,5 @@ class SentenceGenerator:
         return held(done, passage.frames, self.card.fps)
 
     def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
-        free = torch.cat(list(stream_features(self.generator, [passage], sampling)))
-        return natural_sway(free, self.card.fps)
+        free = [*stream_features(self.generator, [passage], sampling)]
+        return natural_sway(torch.cat(free), self.card.fps)

@@ -12,7 +12,7 @@ import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader,
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = [1.8, 2], CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -100,7 +100,7 @@ export class Director {
     if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
     const longest = this.settings.maxSeconds;
     const long = longest !== null && frames > round(longest * FPS);
-    if (parts.length > 1 || !isPlain(parts[0]) || long || (await this.turns(parts[0])))
+    if (parts.length > 1 || !isPlain(parts[0]) || long || this.nearest(parts[0].text) === "clap" || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
     const said = this.reader.whole(prompt, parts), action = this.nearest(said);
     let best = null, missed = null;
@@ -197,6 +197,12 @@ export class Director {
     if (clause.steps !== null && clause.seconds === null) clause = { ...clause, seconds: await this.stepping(clause, seed) };
     seconds = clause.seconds ?? seconds;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
+    if (count === 1 && clause.metres === null && this.nearest(text) === "clap" && !(await this.turns(clause))) {
+      const claps = Math.max(1, round(seconds / CLAP[1]));
+      if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, exactly, CLAP);
+      const frames = Math.max(1, round(seconds * FPS));
+      if (!clause.held) return { passage: { text: CLAPS, frames, afresh: this.beginsStanding(CLAPS), miss: this.miss(clause, frames) } };
+    }
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
@@ -211,14 +217,18 @@ export class Director {
       }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
-    if (count > 1) {
-      const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
-      const frames = exactly ?? once * count;
-      return { passage: { text, frames, afresh, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
-    }
+    if (count > 1) return this.repeated(clause, text, seconds, exactly, ONCE);
     const frames = Math.max(1, round(seconds * FPS));
     if (clause.held) return led(await this.held(clause, frames, seed));
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
+  }
+
+  /** What a clause asks for several times, each in a window of its own. */
+  repeated(clause, text, seconds, exactly, [least, most]) {
+    const { count } = clause;
+    const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, least), most) * FPS);
+    const frames = exactly ?? once * count;
+    return { passage: { text, frames, afresh: this.beginsStanding(text), window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
   }
 
   /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */
