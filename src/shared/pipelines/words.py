@@ -4,6 +4,7 @@ They are those of src/configs/measures.yaml, all languages at once: a sentence n
 one it is in.
 """
 
+import gc
 import re
 import unicodedata
 from collections.abc import Collection, Sequence
@@ -185,26 +186,24 @@ class Words:
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
         someone += rf"|{CJK_SIGN}{{1,4}})?"
         self.downs = re.compile(rf"^{someone}{_any(all_of('downs'))}", re.I)
-        subject = rf"^(?:{own}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
+        whose = _any(all_of("own"))
+        subject = rf"^(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
         self.subject = re.compile(subject, re.I)
-        bends = [way.replace("SIDE", side) for table in tables for way in table["bends"]
-                 for side in table["sides"]]  # fmt: skip
-        self.bends = re.compile(
-            rf"^{someone}{_any(bends)}(?:\s*{_any(all_of('bending'))})*\W*$", re.I
-        )
+        bends = rf"{_any(all_of('bends'))}(?:\s*{_any(all_of('bending'))})*\W*$"
+        bends = re.sub(f"(?<={CJK_SIGN})SIDE|SIDE(?={CJK_SIGN})", "[左右]", bends)
+        bends = bends.replace("SIDE", r"\w+")  # one of them is said somewhere
+        self.bends = re.compile(rf"^(?=.*{_any(all_of('sides'))}){someone}{bends}", re.I)
         self.verb_then = re.compile(rf"\s*{_any(all_of('verb_then'))}", re.I)
         again = rf"(?:\s*{_any(all_of('again'))})*"
         self.ups = re.compile(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", re.I)
         # "with both arms raised", "mit erhobenen Armen", "arms up" behind a comma, in whole phrases
-        sided = _any(all_of("sided"))
-        whose = rf"(?:(?:{_any(all_of('own'))}|{sided})\s+)*"
-        up = _any([*all_of("aloft"), *all_of("higher")])
         arms = _any(sorted({*all_of("limbs")} - {*all_of("fists")}))
-        higher = rf"(?:\s+{_any(all_of('higher'))})*"
-        raised = rf"(?:{whose}{arms}\s+(?:{sided}\s+)?{up}|{whose}{up}\s+{arms}){higher}"
-        alone = rf"(?:^|(?<=[,;:、]))\s*{raised}(?=\s*(?:$|{_STOPS}))"
-        having, posed = _any(all_of("having")), _any(all_of("posed"))
-        self.posed = re.compile(rf"{having}\s+{raised}|{alone}|{posed}", re.I)
+        aloft = rf"\s+{_any(all_of('aloft'))}"
+        up = rf"{arms}(?:\s+{_any(all_of('sided'))})?(?:{aloft}){{1,3}}"
+        having = rf"{_any(all_of('having'))}\s+(?:{_LETTER}+\s+){{0,3}}?"
+        raised = rf"{having}(?:{up}|{_any(all_of('lifted'))}\s+{arms}(?:{aloft})?)"
+        alone = rf"(?:^|(?<=[,;:、]))\s*(?:{whose}\s+){{0,3}}{up}(?=\s*(?:$|{_STOPS}))"
+        self.posed = re.compile(rf"{raised}|{alone}|{_any(all_of('posed'))}", re.I)
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))
         there = rf"(?:\s*{_any(all_of('there'))})"
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
@@ -305,7 +304,13 @@ def bare(word: str) -> str:
 @cache
 def all_words() -> Words:
     """Those of all languages, read once."""
-    return Words(list(load_yaml(packaged_config("measures.yaml")).values()))
+    tables, collects = list(load_yaml(packaged_config("measures.yaml")).values()), gc.isenabled()
+    gc.disable()  # else a third of the time goes into looking for garbage, of which there is none
+    try:
+        return Words(tables)
+    finally:
+        if collects:
+            gc.enable()
 
 
 # ---------------------------------------------------------------- plain words
