@@ -356,7 +356,9 @@ class ActionTask(Task):
         maker, figures = self._generator(module), dict[str, float]()
         for action in self.actions[:MOST_TOLD]:
             clips = [record for record in self.train.records if record.tag == action]
-            texts = [self._captions(record)[0] for record in clips][:: -(-len(clips) // TOLD)]
+            if not clips:  # all left out, by min-clips or styles
+                continue
+            texts = [self._captions(record)[0] for record in clips[:: -(-len(clips) // TOLD)]]
             prompts = [texts[i % len(texts)] for i in range(TOLD)]
             seconds = min(sum(r.num_frames for r in clips) / len(clips) / 30.0, LONGEST)
             made = maker.generate(prompts, seconds=max(seconds, 1.0), seed=self.config.seed)

@@ -106,6 +106,15 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
         ActionTask(action_config(flops, config.output, tmp_path / "again"), network)
 
 
+def test_an_action_without_a_clip_left_is_not_told_of(
+    model: Path, prepared: Path, tmp_path: Path
+) -> None:
+    config = action_config(prepared, model, tmp_path, "actions=['walk','bow']", "min-clips=2")
+    task = ActionTask(config, network_of(str(model)))
+    task.train.records = [record for record in task.train.records if record.tag == "walk"]
+    assert {name.partition("-")[0] for name in task.validation(task.module)} == {"walk"}
+
+
 def test_nothing_that_was_known_changes(model: Path, flops: Path, tmp_path: Path) -> None:
     """Adapters are closed for texts that come out at the old places, to the last bit; and open for
     the new one, with a guidance that compares like with like. A second action leaves the first."""

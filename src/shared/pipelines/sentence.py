@@ -276,7 +276,7 @@ def _ordered(text: str, read: Read) -> list[str]:
             if pattern is words.then and begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
             bound = pattern in (words.before, words.after)
-            if bound and words.ended.search(left) and words.comma.search(right):
+            if bound and words.ended.search(left) and words.comma.search(right.lstrip(), 1):
                 found = left, text[match.start() :]  # "Sits. Once he has waved, he bows."
                 break
             if bound and not _is_time(text, match, right, read):

@@ -59,7 +59,7 @@ from .path import (
 from .sentence import GOING, LOW, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .words import goes_round, side_of, turns_head, unlearned
+from .words import goes_round, says_number, side_of, turns_head, unlearned
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}
@@ -69,7 +69,7 @@ TURN_SECONDS = 2.2  # of a quarter on the spot, led
 TURNING = math.radians(20.0)  # a second: less is no turn
 DOWN, DOWN_SPEED, DOWN_AHEAD = 0.15, 0.43, 6  # metres, m/s, frames before a clause's own
 HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
-ONCE, CLAP = (2.5, 3.0), (1.8, 2.0)  # seconds of one repetition, from … to; of uncounted claps
+ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncounted claps
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST = 1.0  # seconds in which an action can be seen
@@ -130,7 +130,6 @@ class SentenceGenerator:
         for prompt in (one for one in dict.fromkeys(asked) if one not in self._told):
             for warning in filter(None, self._warnings(prompt, again=False)):
                 log.warning("%s", warning)
-        self._told.update(asked)
         plain = [index for index, one in enumerate(fit) if one]
         made: dict[int, list[Motion]] = {}
 
@@ -188,7 +187,6 @@ class SentenceGenerator:
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
         """For each prompt, a line for the first of its clauses that is far from what is known."""
-        self._told.update(prompts)
         return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
@@ -196,9 +194,8 @@ class SentenceGenerator:
         None where kinematics do not see it, of clauses, measures and a way that turns as well."""
         (first, *others), scope = self.clauses(prompt), self.generator.scope
         action = self._nearest(first.text)
-        if others or not first.plain or self._turns(first):
-            return None
-        if scope is None or action not in scope.checked or self._does(first.text, motion):
+        missed = scope and action in scope.checked and not self._does(first.text, motion)
+        if others or not first.plain or self._turns(first) or not missed:
             return None
         return (
             f"prompt {prompt!r}, read as {action!r}: none of {TRIES} samples shows that, by how"
@@ -221,14 +218,15 @@ class SentenceGenerator:
         return None if others else self._miss(Clause(first.text), math.inf)
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
+        self._told.add(prompt)
         parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
         if len(texts) == 1:  # known without its measures, or with them
             lines = self.generator.scope_warnings([whole(prompt, parts)], again=again)
         if len(texts) > 1 or not (parts[0].plain or lines == [None]):
             lines = self.generator.scope_warnings(texts, again=again)
-        known = self.generator.scope.actions if self.generator.scope else []
-        return [line or unlearned(text, known) for text, line in zip(texts, lines, strict=True)]
+        scope = self.generator.scope
+        return [line or unlearned(text, scope) for text, line in zip(texts, lines, strict=True)]
 
     # ------------------------------------------------------------ one sentence
 
@@ -249,9 +247,7 @@ class SentenceGenerator:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture; its
         end is left as it is where that is `held`."""
         scope = self.generator.scope
-        if scope is None or not scope.gestures:
-            return motion
-        asked = any(self._nearest(text) in scope.gestures for text in texts)
+        asked = scope is not None and any(self._nearest(text) in scope.gestures for text in texts)
         return rest_to_rest(motion, held=held) if asked else motion
 
     def _wanted(self, text: str) -> Check | None:
@@ -284,14 +280,13 @@ class SentenceGenerator:
         def miss(features: Tensor) -> float:
             motion = decode_features(features, fps=fps)
             seen = measure(motion)
-            count = repetitions(action, seen, side) if clause.count > 1 else None
             found = float(wanted is not None and not wanted(seen))
             if found and wanted and len(features) > latest:
                 # One bad window is none of those that follow, and feet are cleaned up yet: a walk
                 # whose height drifts by centimetres seems to fly.
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
-            if count is not None:
+            if clause.count > 1 and (count := repetitions(action, seen, side)) is not None:
                 found = abs(count - round(clause.count * len(features) / frames))
             uneasy = rests and len(features) >= frames and not ends_at_rest(motion)
             return found + UNEASY * uneasy
@@ -323,8 +318,14 @@ class SentenceGenerator:
             return True  # refused there, with a clear line
         parts = self.clauses(prompt)
         fits = self.generator.length_warning(seconds) is None
-        one = len(parts) == 1 and parts[0].plain and self._nearest(parts[0].text) != "clap"
+        one = len(parts) == 1 and parts[0].plain and not self._applauds(parts[0])
         return fits and one and not self._turns(parts[0])
+
+    def _applauds(self, clause: Clause) -> bool:
+        """Whether a clause asks for claps and does not say how many."""
+        bare = clause.count == 1 and clause.metres is None and not says_number(clause.text)
+        known = self._reading(CLAPS)
+        return bare and self._nearest(clause.text) == known.action == "clap" and known.certainty > 0
 
     def _turns(self, clause: Clause) -> bool:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
@@ -508,18 +509,17 @@ class SentenceGenerator:
             clause = replace(clause, seconds=exactly / fps)
         if clause.steps is not None and clause.seconds is None:
             clause = replace(clause, seconds=self._stepping(clause, tag, sampling))
-        seconds = clause.seconds or seconds
-        given = None
-        passage, limits = Passage(clause.text, max(1, round(seconds * fps)), tag), ONCE
-        if clause.count == 1 and self._nearest(clause.text) == "clap":
-            passage, limits = replace(passage, text=CLAPS), CLAP
-            clause = replace(clause, count=max(1, round(seconds / CLAP[1])))
+        seconds, given = clause.seconds or seconds, None
+        passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
+        if self._applauds(clause):
+            passage, exactly = replace(passage, text=CLAPS), passage.frames
+            clause = replace(clause, count=max(1, round(seconds / CLAP)))
         if self._turns(clause):
             given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
             given = self._led(passage, clause, sampling, timed=exactly is not None)
         elif clause.count > 1:
-            once = round(float(np.clip(seconds / clause.count, *limits)) * fps)
+            once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
             frames = once * clause.count
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)

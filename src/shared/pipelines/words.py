@@ -7,12 +7,13 @@ one it is in.
 import gc
 import re
 import unicodedata
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from functools import cache, partial, reduce
 from itertools import groupby
 from typing import Any
 
 from ..config_loader import load_yaml, packaged_config
+from ..model.clip.out_of_domain import OutOfDomainDetector, words_of
 
 MAX_COUNT = 20
 MOST = {"metres": 100.0, "degrees": 720.0, "seconds": 600.0, "steps": 50.0}
@@ -394,24 +395,27 @@ def unlearned_words() -> list[tuple[list[str], str, bool]]:
     return found
 
 
-def unlearned(text: str, known: Collection[str]) -> str | None:
-    """A line if a text asks for what is none of the known actions, whatever else it asks for."""
-    said = [_between_blanks(text, loose=loose) for loose in (False, True)]
-    names = [_between_blanks(name, loose=False) for name in known]  # some are captions
+def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
+    """A line if a text asks for what is none of a model's actions, whatever else it asks for."""
+    if scope is None:
+        return None
+    spans = [word.span() for word in WORD.finditer(plain_text(text))]
+    said = {loose: _between_blanks(text, loose=loose) for loose in (False, True)}
+    names = [_between_blanks(name, loose=False) for name in scope.actions]  # some are captions
     found = [
-        (said[loose].index(words), words)
+        (len(said[loose][: said[loose].index(words)].split()), words)
         for actions, words, loose in unlearned_words()
         if words in said[loose]
-        and not any(action in known for action in actions)
+        and not any(action in scope.actions for action in actions)
         and not any(words in name for name in names)
+        and not (scope.captions and scope.words.issuperset(words_of(words)))
     ]
     if all_words().head_turns.search(text):
         asked = "the head alone to turn"
     elif found:
-        at, words = min(found, key=lambda each: (each[0], -len(each[1])))
+        first, words = min(found, key=lambda each: (each[0], -len(each[1])))
         if words.startswith(" "):  # as it is written, to the end of its last word
-            first, last = (said[False].count(" ", 0, i) for i in (at, at + len(words.rstrip())))
-            spans = [word.span() for word in WORD.finditer(plain_text(text))]
+            last = first + len(words.split())
             words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
         asked = f"for {words!r}"
     else:
@@ -421,8 +425,8 @@ def unlearned(text: str, known: Collection[str]) -> str | None:
 
 def _between_blanks(text: str, *, loose: bool) -> str:
     """The words of a text without case, where loose without accents, each between blanks."""
-    plain = bare(plain_text(text)) if loose else plain_text(text).casefold()
-    return f" {' '.join(re.findall(WORD, plain))} "
+    fold = bare if loose else str.casefold
+    return f" {' '.join(fold(word) for word in WORD.findall(plain_text(text)))} "
 
 
 def value_of(text: str) -> float:
@@ -471,6 +475,12 @@ def begins_after(text: str, then: re.Match[str]) -> bool:
 def goes_round(text: str) -> bool:
     """Whether a text tells of a way in a circle."""
     return bool(all_words().round.search(text)) and not all_words().corner.search(text)
+
+
+def says_number(text: str) -> bool:
+    """Whether a text says how often, were it once."""
+    words = all_words()
+    return bool(words.often.search(text) or words.times.search(text))
 
 
 def turns_head(text: str) -> bool:

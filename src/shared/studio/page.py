@@ -23,7 +23,7 @@ from ..formats.writers.glb import rest_files
 from ..io.files import atomic_write, load_json
 from ..model.checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model, wrong_kind
 from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
-from ..model.clip.out_of_domain import TABLE_FILE
+from ..model.clip.out_of_domain import TABLE_FILE, OutOfDomainDetector
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
 from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
@@ -144,6 +144,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
     post = generation.post_processing
     body = body_data()
     tokenizer = load_json(folder / TOKENIZER_FOLDER / META_FILE)
+    scope = OutOfDomainDetector.from_pretrained(folder)
     return {
         "name": card.name,
         "licence": card.licence,
@@ -165,6 +166,7 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         "scope": load_json(folder / SCOPE_FILE),
         "measures": javascript_patterns(),
         "unlearned": unlearned_words(),
+        "ownWords": bool(scope and scope.captions),
         "skeleton": {
             "names": list(JOINT_NAMES),
             "parents": body["skeleton"]["parents"],

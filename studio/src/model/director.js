@@ -9,10 +9,13 @@ import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, WORD } from "./sentence.js";
+import { wordsOf } from "./scope.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = [1.8, 2], CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+
+const countOf = (words) => words.split(/\s+/u).filter(Boolean).length;
 
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
@@ -37,21 +40,22 @@ export class Director {
     return lines.find(Boolean) ?? texts.map((text) => this.unlearned(text)).find(Boolean) ?? null;
   }
 
-  /** A line if a text asks for what is none of the known actions, whatever else it asks for. */
+  /** A line if a text asks for what is none of a model's actions, whatever else it asks for. */
   unlearned(text) {
-    const said = [false, true].map((loose) => betweenBlanks(text, loose)), known = new Set(this.scope.meta.actions);
-    const names = [...known].map((name) => betweenBlanks(name, false)); // some are captions
+    const said = [false, true].map((loose) => betweenBlanks(text, loose)), { actions } = this.scope.meta;
+    const known = new Set(actions), names = actions.map((name) => betweenBlanks(name, false)); // some are captions
+    const taught = (words) => this.settings.ownWords && [...wordsOf(words)].every((word) => this.scope.words.has(word));
     const found = this.settings.unlearned
-      .filter(([actions, words, loose]) => said[Number(loose)].includes(words) && !actions.some((action) => known.has(action)) && !names.some((name) => name.includes(words)))
-      .map(([, words, loose]) => [said[Number(loose)].indexOf(words), words]);
+      .filter(([others, words, loose]) => said[Number(loose)].includes(words) && !others.some((action) => known.has(action))
+        && !names.some((name) => name.includes(words)) && !taught(words))
+      .map(([, words, loose]) => [countOf(said[Number(loose)].slice(0, said[Number(loose)].indexOf(words))), words]);
     const line = (asked) => `“${text}” asks ${asked}, which this model has not learned.`;
     if (this.reader.turnsHead(text)) return line("the head alone to turn");
     if (!found.length) return null;
-    const [at, words] = found.reduce((a, b) => (b[0] < a[0] || (b[0] === a[0] && b[1].length > a[1].length) ? b : a));
+    const [first, words] = found.reduce((a, b) => (b[0] < a[0] || (b[0] === a[0] && b[1].length > a[1].length) ? b : a));
     if (!words.startsWith(" ")) return line(`for “${words}”`);
-    const [first, last] = [at, at + words.trimEnd().length].map((stop) => said[0].slice(0, stop).split(" ").length - 1);
     const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]);
-    return line(`for “${plain(text).slice(spans[first][0], spans[last - 1][1])}”`);
+    return line(`for “${plain(text).slice(spans[first][0], spans[first + countOf(words) - 1][1])}”`);
   }
 
   /**
@@ -100,7 +104,7 @@ export class Director {
     if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
     const longest = this.settings.maxSeconds;
     const long = longest !== null && frames > round(longest * FPS);
-    if (parts.length > 1 || !isPlain(parts[0]) || long || this.nearest(parts[0].text) === "clap" || (await this.turns(parts[0])))
+    if (parts.length > 1 || !isPlain(parts[0]) || long || this.applauds(parts[0]) || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
     const said = this.reader.whole(prompt, parts), action = this.nearest(said);
     let best = null, missed = null;
@@ -197,10 +201,9 @@ export class Director {
     if (clause.steps !== null && clause.seconds === null) clause = { ...clause, seconds: await this.stepping(clause, seed) };
     seconds = clause.seconds ?? seconds;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
-    if (count === 1 && clause.metres === null && this.nearest(text) === "clap" && !(await this.turns(clause))) {
-      const claps = Math.max(1, round(seconds / CLAP[1]));
-      if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, exactly, CLAP);
-      const frames = Math.max(1, round(seconds * FPS));
+    if (this.applauds(clause) && !(await this.turns(clause))) {
+      const claps = Math.max(1, round(seconds / CLAP)), frames = Math.max(1, round(seconds * FPS));
+      if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, frames);
       if (!clause.held) return { passage: { text: CLAPS, frames, afresh: this.beginsStanding(CLAPS), miss: this.miss(clause, frames) } };
     }
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
@@ -217,16 +220,22 @@ export class Director {
       }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
-    if (count > 1) return this.repeated(clause, text, seconds, exactly, ONCE);
+    if (count > 1) return this.repeated(clause, text, seconds, exactly);
     const frames = Math.max(1, round(seconds * FPS));
     if (clause.held) return led(await this.held(clause, frames, seed));
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
   }
 
+  /** Whether a clause asks for claps and does not say how many. */
+  applauds({ text, count, metres }) {
+    const known = this.reading(CLAPS);
+    return count === 1 && metres === null && !this.reader.saysNumber(text) && this.nearest(text) === "clap" && known.action === "clap" && known.certainty > 0;
+  }
+
   /** What a clause asks for several times, each in a window of its own. */
-  repeated(clause, text, seconds, exactly, [least, most]) {
+  repeated(clause, text, seconds, exactly) {
     const { count } = clause;
-    const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, least), most) * FPS);
+    const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
     const frames = exactly ?? once * count;
     return { passage: { text, frames, afresh: this.beginsStanding(text), window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
   }

@@ -39,8 +39,8 @@ const bare = (word) => word.toLowerCase().replaceAll("ß", "ss").replaceAll("’
 export const WORD = /[\p{L}\p{N}_]+/gu;
 /** The words of a text without case, where loose without accents, each between blanks. */
 export function betweenBlanks(text, loose) {
-  const words = loose ? bare(plain(text)) : plain(text).toLowerCase().replaceAll("ß", "ss");
-  return ` ${(words.match(WORD) ?? []).join(" ")} `;
+  const fold = loose ? bare : (word) => word.toLowerCase().replaceAll("ß", "ss");
+  return ` ${(plain(text).match(WORD) ?? []).map(fold).join(" ")} `;
 }
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
@@ -237,7 +237,7 @@ export class SentenceReader {
         let left = text.slice(0, start), right = text.slice(stop);
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
         const bound = name === "before" || name === "after";
-        if (bound && this.first.ended.test(left) && this.first.comma.test(right)) { // "Sits. Once he has waved, he bows."
+        if (bound && this.first.ended.test(left) && this.first.comma.test(right.trimStart().slice(1))) { // "Sits. Once he has waved, he bows."
           found = [left, text.slice(start)];
           break;
         }
@@ -425,6 +425,11 @@ export class SentenceReader {
 
   goesRound(text) {
     return this.first.round.test(text) && !this.first.corner.test(text);
+  }
+
+  /** Whether a text says how often, were it once. */
+  saysNumber(text) {
+    return this.first.often.test(text) || this.first.times.test(text);
   }
 
   turnsHead(text) {

@@ -220,7 +220,7 @@ STAYING = [
     ("walks to the beat", "walks to the beat"),
     ("spins and stays in place", "spins / stays in place"),
     ("a person turns 90 degrees and holds", "a person turns / stands still 2.5"),
-    ("raises a hand twice and keeps it up", "raises the arm"),
+    ("raises a hand twice and keeps it up", "raises a hand and keeps it up"),
     ("walks without stopping", "walks without stopping"),
     ("stops the traffic", "stops the traffic"),
     ("walks and stops two thieves", "walks and stops thieves"),

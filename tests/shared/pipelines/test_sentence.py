@@ -2,12 +2,17 @@
 
 import time
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from src.shared.config_loader import parse_yaml
+from src.shared.data.captions.book import packaged_book
+from src.shared.model.checkpoint import resolve_model
+from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.pipelines.sentence import Clause, Reading, clauses
 from src.shared.pipelines.words import goes_round, side_of, unlearned
 
@@ -318,7 +323,7 @@ def test_words_that_two_languages_share_cost_no_time():
     assert clauses(sentence, read) == [Clause(sentence)]
 
 
-@given(st.text(max_size=60))
+@given(st.text(max_size=60) | st.text("İıßŉǰΐ yawnsfolé", max_size=30))
 def test_any_text_has_a_clause(text: str):
     found = clauses(text)
     assert found
@@ -354,7 +359,7 @@ def test_any_text_has_a_clause(text: str):
         ),
         ("walks, both hands in the air", Clause("walks", meanwhile="both hands in the air")),
         ("la niña camina saludando", Clause("la niña camina", meanwhile="saludando")),
-        ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant de la main")),
+        ("elle marche en saluant", Clause("elle marche", meanwhile="en saluant")),
         ("er geht und winkt dabei", Clause("er geht", meanwhile="winkt")),
         ("両手を上げて歩く", Clause("歩く", meanwhile="両手を上げて")),
         (
@@ -520,7 +525,16 @@ def test_a_letter_of_another_language_ends_no_word(name: str) -> None:
 
 # ---------------------------------------------------------------- what nobody taught
 
-KNOWN = {"walk", "wave", "kick", "punch", "raise", "bow", "jump", "stand"}
+
+def scope_of(*actions: str, **more: Any) -> OutOfDomainDetector:
+    """Of a model that knows these actions."""
+    return OutOfDomainDetector(
+        actions=actions, key_words={}, words=more.pop("words", frozenset()), fillers=frozenset(),
+        means=np.zeros((len(actions), 2), np.float32), false_alarms=0.0, min_cosine=None, **more,
+    )  # fmt: skip
+
+
+KNOWN = scope_of("walk", "wave", "kick", "punch", "raise", "bow", "jump", "stand")
 
 
 @pytest.mark.parametrize(
@@ -534,6 +548,7 @@ KNOWN = {"walk", "wave", "kick", "punch", "raise", "bow", "jump", "stand"}
         ("she walks and then blocks with her shield", "'blocks with'"),
         ("balances on one leg while she nods", "'balances on'"),
         ("a guard turns his head to the left", "the head alone to turn"),
+        ("İbrahim yawns and walks", "'yawns'"),  # whose small letter is two signs
     ],
 )
 def test_what_nobody_taught_is_told(text: str, asked: str) -> None:
@@ -544,23 +559,31 @@ def test_what_nobody_taught_is_told(text: str, asked: str) -> None:
 
 
 def test_what_a_model_knows_is_not_told() -> None:
-    assert unlearned("he yawns", {*KNOWN, "yawn"}) is None
+    assert unlearned("he yawns", scope_of("walk", "yawn")) is None
+    assert unlearned("he yawns", scope_of("a person yawns")) is None  # a caption stands for it
+    taught = {"captions": {1: 0}, "words": frozenset({"a", "person", "yawns"})}
+    assert unlearned("he yawns", scope_of("walk", **taught)) is None
+    assert unlearned("he yawns", None) is None  # nothing is known of what the model knows
     assert unlearned("she sägt Hallo", KNOWN) and unlearned("eine Frau sagt Hallo", KNOWN) is None
     assert unlearned("バイバイと手を振る", KNOWN) is None  # not ハイハイ, which crawls
 
 
-def test_no_development_sentence_of_what_is_known_is_told() -> None:
+def test_what_is_known_is_hardly_ever_told() -> None:
+    """Development sentences; training sentences of what ships, every fortieth."""
     path = Path(__file__).parents[3] / "benchmarks" / "development.yaml"
-    told = [
-        line
-        for row in parse_yaml(path.read_text(encoding="utf-8"), str(path))
-        for text in row["text"]
-        if (line := unlearned(text, [row["labels"]["action"]]))
-    ]
-    assert len(told) <= 2, told
+    rows = parse_yaml(path.read_text(encoding="utf-8"), str(path))
+    said = [(text, scope_of(row["labels"]["action"])) for row in rows for text in row["text"]]
+    book = packaged_book()
+    ships = OutOfDomainDetector.from_pretrained(resolve_model("starter"))
+    assert ships is not None
+    for language in book.languages:
+        written = sorted(book.written_of(set(ships.actions) - {""}, language))[::40]
+        said += [(text, ships) for text in written]
+    told = [line for text, scope in said if (line := unlearned(text, scope))]
+    assert len(said) > 2000 and len(told) < 0.01 * len(said), told
 
 
-@given(st.text(max_size=60))
+@given(st.text(max_size=60) | st.text("İıßŉǰΐ yawnsfolé", max_size=30))
 def test_any_text_can_be_asked(text: str) -> None:
-    line = unlearned(text, [])
+    line = unlearned(text, scope_of("walk"))
     assert line is None or line.endswith("which this model has not learned")

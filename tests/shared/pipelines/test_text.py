@@ -430,3 +430,20 @@ def test_candidates_are_the_generators_and_the_best_is_the_judges() -> None:
 def test_the_others_are_left_out_unless_asked_for() -> None:
     (result,) = PromptSampler(tiny_generator()).sample(PROMPTS[:1], 2, seconds=0.5)
     assert result.all_candidates is None and len(result.table.order) == 2
+
+
+@pytest.mark.parametrize("seconds", [3.0, 4.0, 5.0, 9.0])
+def test_uncounted_claps_take_the_seconds_that_they_are_given(
+    starter: TextToMotion, seconds: float
+) -> None:
+    made = SentenceGenerator(starter)
+    [motion] = made.generate(["a person claps"], seconds=seconds, steps=2)
+    assert motion.num_frames == round(seconds * 30)
+    assert not made._applauds(made.clauses("a person claps once")[0])
+
+
+def test_hands_meet_where_a_person_claps(starter: TextToMotion) -> None:
+    for seed in range(2):
+        [motion] = SentenceGenerator(starter).generate(["a person claps"], seconds=4.0, seed=seed)
+        hands = motion.positions()[:, [JOINT_INDEX[f"{side}_wrist"] for side in "lr"]]
+        assert np.linalg.norm(hands[:, 0] - hands[:, 1], axis=-1).min() < 0.12

@@ -246,7 +246,12 @@ def _table_rows(path: Path, text: str, delimiter: str) -> list[_Row]:
         columns, lines = header, lines[1:]
     for number, row in lines:
         if any(cell.strip() for cell in row[len(columns) :]):
-            remedy = "take out the tabs" if quoting else "write a caption with commas in quotes"
+            mark = {",": "commas", ";": "semicolons"}.get(delimiter, "tabs")
+            remedy = f"write a caption with {mark} in quotes"
+            if quoting:
+                remedy = "take out the tabs"
+            if columns is not header:
+                remedy += "; without a header line the columns are clip, caption, language"
             what = f"{len(row)} cells for {len(columns)} columns"
             raise UserError(f"captions {path}, line {number}: {what}; {remedy}")
     cells = [(number, [*zip(columns, row, strict=False)]) for number, row in lines]
