@@ -19,7 +19,6 @@ import torch
 from torch import Tensor
 from torch.nn.functional import normalize, pad
 
-from ..config_audio import MemoryConfig as MemoryConfig  # where it was looked for
 from ..errors import UserError
 from ..io.files import atomic_write, write_json
 from ..io.storage import Place, place

@@ -1,10 +1,9 @@
 """Sentences in, motions out: what a sentence says of order and measure is done, too.
 
-A sentence is read as clauses (sentence.py). One plain clause that is no longer than the model's
-training clips is one sample of the network, claps aside; all else a stream of passages, one for
-each clause, with what it measures as a constraint: a path of so many metres, a heading that turns
-by so many degrees, in full circles where it spins, by a right angle where a walk is to turn. Where
-kinematics tell whether the action is there, what misses it is sampled again.
+A sentence is read as clauses (sentence.py). One plain clause no longer than the model's training
+clips is one sample of the network, claps aside; all else a stream of passages, one a clause, with
+what it measures as a constraint: a path of so many metres, a heading that turns by so many degrees,
+in full circles, by a right angle. What kinematics do not see is sampled again.
 """
 
 import logging
@@ -323,9 +322,10 @@ class SentenceGenerator:
 
     def _applauds(self, clause: Clause) -> bool:
         """Whether a clause asks for claps and does not say how many."""
-        bare = clause.count == 1 and clause.metres is None and not says_number(clause.text)
+        if self._nearest(clause.text) != "clap" or clause.count > 1 or clause.metres is not None:
+            return False
         known = self._reading(CLAPS)
-        return bare and self._nearest(clause.text) == known.action == "clap" and known.certainty > 0
+        return known.action == "clap" and known.certainty > 0 and not says_number(clause.text)
 
     def _turns(self, clause: Clause) -> bool:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""

@@ -1,7 +1,8 @@
-"""The words by which a sentence says order and measure, as patterns.
+"""The words by which a sentence says order and measure, as patterns; and those of what a model may
+not have learned.
 
-They are those of src/configs/measures.yaml, all languages at once: a sentence need not say which
-one it is in.
+They are those of src/configs/measures.yaml and unlearned.yaml, all languages at once: a sentence
+need not say which one it is in.
 """
 
 import gc
@@ -397,6 +398,8 @@ def unlearned_words() -> list[tuple[list[str], str, bool]]:
 
 def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
     """A line if a text asks for what is none of a model's actions, whatever else it asks for."""
+    if all_words().head_turns.search(text):
+        return _not_learned(text, "the head alone to turn")
     if scope is None:
         return None
     spans = [word.span() for word in WORD.finditer(plain_text(text))]
@@ -410,16 +413,16 @@ def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
         and not any(words in name for name in names)
         and not (scope.captions and scope.words.issuperset(words_of(words)))
     ]
-    if all_words().head_turns.search(text):
-        asked = "the head alone to turn"
-    elif found:
-        first, words = min(found, key=lambda each: (each[0], -len(each[1])))
-        if words.startswith(" "):  # as it is written, to the end of its last word
-            last = first + len(words.split())
-            words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
-        asked = f"for {words!r}"
-    else:
+    if not found:
         return None
+    first, words = min(found, key=lambda each: (each[0], -len(each[1])))
+    if words.startswith(" "):  # as it is written, to the end of its last word
+        last = first + len(words.split())
+        words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
+    return _not_learned(text, f"for {words!r}")
+
+
+def _not_learned(text: str, asked: str) -> str:
     return f"prompt {text!r} asks {asked}, which this model has not learned"
 
 

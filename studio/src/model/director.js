@@ -228,8 +228,9 @@ export class Director {
 
   /** Whether a clause asks for claps and does not say how many. */
   applauds({ text, count, metres }) {
+    if (this.nearest(text) !== "clap" || count > 1 || metres !== null) return false;
     const known = this.reading(CLAPS);
-    return count === 1 && metres === null && !this.reader.saysNumber(text) && this.nearest(text) === "clap" && known.action === "clap" && known.certainty > 0;
+    return known.action === "clap" && known.certainty > 0 && !this.reader.saysNumber(text);
   }
 
   /** What a clause asks for several times, each in a window of its own. */

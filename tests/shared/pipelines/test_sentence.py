@@ -564,6 +564,7 @@ def test_what_a_model_knows_is_not_told() -> None:
     taught = {"captions": {1: 0}, "words": frozenset({"a", "person", "yawns"})}
     assert unlearned("he yawns", scope_of("walk", **taught)) is None
     assert unlearned("he yawns", None) is None  # nothing is known of what the model knows
+    assert unlearned("he turns his head", None)  # no model here turns it
     assert unlearned("she sägt Hallo", KNOWN) and unlearned("eine Frau sagt Hallo", KNOWN) is None
     assert unlearned("バイバイと手を振る", KNOWN) is None  # not ハイハイ, which crawls
 
