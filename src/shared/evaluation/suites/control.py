@@ -7,7 +7,7 @@ made for other tasks (chance), on a pose held still, and on what an untrained ne
 Letters: N motions of one cell.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain, cycle, islice
 
@@ -63,12 +63,16 @@ def _in_turn(choices: Sequence[Sequence[str]], num: int) -> list[str]:
 
 
 def plan_cells(
-    book: CaptionBook, languages: Sequence[str], num_seeds: int, seed: int
+    book: CaptionBook,
+    languages: Sequence[str],
+    num_seeds: int,
+    seed: int,
+    tasks: Sequence[ControlTask] = CONTROL_TASKS,
 ) -> list[Cell]:
     """Every cell that has prompts, not yet generated."""
     cells = []
     for language in languages:
-        for task in CONTROL_TASKS:
+        for task in tasks:
             for wording in WORDINGS:
                 choices = [prompts_of(book, s, language, wording, seed) for s in task.labels]
                 versus = prompts_of(book, task.versus or {}, language, wording, seed)
@@ -113,6 +117,7 @@ def control_grid(
     num_seeds: int,
     seed: int = 0,
     untrained: Sampler | None = None,
+    actions: Collection[str] = (),
     progress: Callable[[str], None] = lambda text: None,
     once: Once = lambda name, compute: compute(),
 ) -> Grid:
@@ -122,10 +127,15 @@ def control_grid(
         real: clips for the real row, None for none.
         num_seeds: motions a cell.
         untrained: asked the templates of the first language; None = its column stays empty.
+        actions: that the model knows: no task of another is asked, and of none no row is left;
+            empty = nobody knows, and all are.
         once: `Parts.once`: what is finished is not made again.
     """
+    tasks = _of_known(actions)
+    if left := [each.name for each in CONTROL_TASKS if each.name not in {t.name for t in tasks}]:
+        progress(f"controllability: the model knows no action of {', '.join(left)}: left out")
     languages = [language for language in languages if language in book.languages]
-    cells = plan_cells(book, languages, num_seeds, seed)
+    cells = plan_cells(book, languages, num_seeds, seed, tasks)
 
     def fill(own: Sequence[Cell], sampler: Sampler, name: str) -> list[Measurements]:
         def compute() -> Part:
@@ -153,7 +163,7 @@ def control_grid(
     columns = [Column(f"{k} {word}", f"{k} {WORDINGS[word]}", 2, "high") for k, word in kinds]
     columns += [Column(name, name, 2) for name in ("real", "chance", "still", "untrained")]
     rates: dict[str, dict[str, Estimate]] = {}
-    for task in CONTROL_TASKS:
+    for task in tasks:
         rates[task.name] = {
             **{f"{cell.language} {cell.wording}": cell.rate for cell in cells if cell.task is task},
             "real": _real_rate(task, real),
@@ -163,8 +173,19 @@ def control_grid(
         }
     keys = [column.key for column in columns]
     rows = {name: GridRow({key: own.get(key) for key in keys}) for name, own in rates.items()}
-    rows["mean"] = GridRow({key: _pooled(rates.values(), key) for key in keys})
+    if rows:
+        rows["mean"] = GridRow({key: _pooled(rates.values(), key) for key in keys})
     return Grid.of("controllability", rows, {"num": num_seeds}, columns=tuple(columns))
+
+
+def _of_known(actions: Collection[str]) -> list[ControlTask]:
+    """The tasks that ask for, and compare with, these actions alone; of any where there is none."""
+    found = []
+    for task in CONTROL_TASKS:
+        own = tuple(each for each in task.labels if not actions or each["action"] in actions)
+        if own and (not actions or task.versus is None or task.versus["action"] in actions):
+            found.append(replace(task, labels=own))
+    return found
 
 
 def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:

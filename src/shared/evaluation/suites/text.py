@@ -78,6 +78,7 @@ class TextContext:
     samplers: dict[str, Sampler]
     settings: TextSettings = field(default_factory=TextSettings)
     progress: Progress = lambda text: None  # told what begins
+    actions: frozenset[str] = frozenset()  # that the model knows; none = nobody knows
     # of the report's folder: what is finished is kept there and not measured again
     parts: Parts = field(default_factory=Parts)
 
@@ -166,10 +167,11 @@ class TextContext:
             num_seeds=settings.control_seeds,
             seed=settings.seed,
             untrained=self.untrained,
+            actions=self.actions,
             progress=self.progress,
             once=self.parts.once,
         )
-        return [grid]
+        return [grid] if grid.rows else []
 
 
 @dataclass(frozen=True, eq=False)
@@ -343,7 +345,8 @@ def evaluate_text(
     samplers = {"generated": model_sampler(generator, **sampling)}
     if settings.untrained:
         samplers[UNTRAINED] = model_sampler(untrained(generator, settings.seed), **sampling)
-    context = TextContext(held_out, judge, samplers, settings, progress, Parts(folder))
+    actions = frozenset(generator.card.tags)
+    context = TextContext(held_out, judge, samplers, settings, progress, actions, Parts(folder))
     with errors_only():
         return evaluate_samplers(context, about=about, sources=sources)
 

@@ -4,6 +4,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -201,6 +202,12 @@ def test_an_obedient_sampler_passes_the_control_tasks() -> None:
     both = control_grid(sampler, book, None, languages=["en"], num_seeds=2, untrained=deaf)
     assert mean(both, "untrained")["count"] == 2 * num_tasks
     assert mean(both, "untrained")["value"] < 0.4 < mean(both, "en templates")["value"]
+    told: list[str] = []
+    few = partial(control_grid, sampler, book, None, languages=["en"], num_seeds=2)
+    walker = few(actions={"walk", "wave"}, progress=told.append)
+    assert set(walker.rows) == {*table.rows} - {"run faster than walk"}
+    assert "knows no action of run faster than walk" in told[0]
+    assert not few(actions={"kata"}).rows
     drawn = printed(table)
     assert drawn.header[:3] == ["task", "en tmpl", "en para"] and drawn.rows[-1][0] == "mean"
     assert {len(row) for row in drawn.rows} == {len(drawn.header)}
