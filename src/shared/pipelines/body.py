@@ -36,7 +36,7 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.staging import circling, steered
+from ..motion.staging import circling, staged, steered
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
@@ -327,18 +327,20 @@ class Performer:
         beats: np.ndarray | None = None,
         phase: np.ndarray | None = None,
         waits: Sequence[tuple[int, int]] = (),
+        plan: Constraint | None = None,
         seed: int | None = None,
         progress: Progress | None = None,
     ) -> Performance:
         """A body that goes where it likes, near the middle of the stage.
 
-        Who walks off ("an old man dances") walks round instead.
+        Who walks off ("an old man dances") walks round instead, unless a plan leads.
 
         Args:
             passages: what it does, T frames in all.
             beats, seed, progress: see `perform`.
             phase: unwrapped bars [T], for whoever shows its path; None = no music.
             waits: frames [start, stop) that are a passage or more each and have no beat.
+            plan: what else is known of the T frames (`FigureDancer.plan`); None = nothing.
 
         Raises:
             UserError: as `TextToMotion.sample_features`.
@@ -352,10 +354,14 @@ class Performer:
             waits=waits,
             first=(own.seed if seed is None else seed) % 2,
         )
+        if plan is not None:
+            known = replace(known, values=plan.keep(known.values), known=known.known | plan.known)
         features = self._sampled(passages, known, seed, progress, waits)
-        fps = self.generator.card.fps
-        features[:, ROOT_ROW] = circling(features[:, ROOT_ROW], fps)
-        features[:, ROOT_ROW] = steered(features[:, ROOT_ROW], fps)
+        root, fps = features[:, ROOT_ROW], self.generator.card.fps
+        if plan is None:
+            features[:, ROOT_ROW] = steered(circling(root, fps), fps)
+        else:
+            features[:, ROOT_ROW] = staged(plan.keep(features)[:, ROOT_ROW], fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
         )

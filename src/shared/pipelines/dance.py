@@ -24,6 +24,7 @@ from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
+from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
@@ -272,12 +273,13 @@ class SongPerformer:
             told = _from(progress, number * frames, num_samples * frames)
             dance = None if wish is None else self._in_figures(song, wish, prompt, own, told)
             if dance is None:
-                passages = self._passages(song, None, prompt, tag, own)
+                passages = with_waits(self._passages(song, None, prompt, tag, own), song.waits)
                 dance = self.performer.improvise(
-                    with_waits(passages, song.waits),
+                    passages,
                     beats=song.beats if len(song.beats) else None,
                     phase=song.phase,
                     waits=song.waits,
+                    plan=self._plan(song, passages, own),
                     seed=own,
                     progress=told,
                 )
@@ -314,6 +316,20 @@ class SongPerformer:
             )
         return wish if wish.kinds else None
 
+    def _plan(
+        self, song: SongCondition, passages: Sequence[Passage], seed: int
+    ) -> Constraint | None:
+        """Ways and landings of figures, where a passage dances; None where none does or fits."""
+        dances = {each.text: self._dances(each.text) for each in passages}
+        if self.choreographer is None or not any(dances.values()):
+            return None
+        found = FigureDancer(self.choreographer, self.performer.generator).plan(song, Wish(), seed)
+        if found is not None:
+            lengths = torch.tensor([each.frames for each in passages])
+            shown = torch.tensor([dances[each.text] for each in passages])
+            found.known[~shown.repeat_interleave(lengths)] = False
+        return found
+
     def _in_figures(
         self,
         song: SongCondition,
@@ -346,8 +362,8 @@ class SongPerformer:
             seconds = sum(figure.times[-1] - figure.times[0] for figure in others)
             asked, came = " or ".join(sorted(wish.kinds)), sorted({each.kind for each in others})
             self._tell(
-                f"{seconds:.0f} s of this song have no figure of {asked} that fits:"
-                f" {', '.join(came)} danced instead"
+                f"{seconds:.0f} s of this dance are {', '.join(came)}, beside {asked}: for variety,"
+                " and where nothing of it fits the tempo"
             )
         if progress is not None:
             progress(motion.num_frames, motion.num_frames)

@@ -91,6 +91,35 @@ class FigureDancer:
         Raises:
             UserError: as `TextToMotion.sample_features`.
         """
+        found = self._laid(song, wish, sampling.seed, progress)
+        if found is None:
+            return None
+        slots, chosen, features, danced = found
+        features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
+        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
+        motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
+        return motion, told(self.choreographer, slots, chosen)
+
+    def plan(self, song: SongCondition, wish: Wish, seed: int) -> Constraint | None:
+        """Where figures lead on a song of T frames and when their feet stand: the root rows, for a
+        body that is made otherwise. None where no figure fits.
+
+        Args:
+            song, wish: see `dance`.
+            seed: with them it decides everything.
+        """
+        found = self._laid(song, wish, seed)
+        if found is None:
+            return None
+        *_, features, danced = found
+        known = torch.zeros(features.shape, dtype=torch.bool)
+        known[:, ROOT_ROW] = danced[:, None]
+        return Constraint(features, known)
+
+    def _laid(
+        self, song: SongCondition, wish: Wish, seed: int, progress: Progress | None = None
+    ) -> tuple[Sequence[Slot], Sequence[Figures], Tensor, Tensor] | None:
+        """The phrases of a song, a figure for each, and both of `lay`, its beats on the song's."""
         if song.phase is None or len(song.beats) < 2:
             return None
         slots = song_slots(song.beats, song.phase, song.condition.cpu().numpy(), song.waits)
@@ -100,18 +129,13 @@ class FigureDancer:
             if progress is not None:
                 progress(int(CHOSEN * frames * done / total), frames)
 
-        chosen = self._choose(slots, wish, sampling.seed, told_of) if slots else None
+        chosen = self._choose(slots, wish, seed, told_of) if slots else None
         if chosen is None:
             return None
-        memory = self.choreographer.memory
-        features, danced = lay(memory, slots, chosen, len(song.phase))
+        features, danced = lay(self.choreographer.memory, slots, chosen, frames)
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
-        features = accented(features, song.beats)
-        features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
-        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
-        motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
-        return motion, told(self.choreographer, slots, chosen)
+        return slots, chosen, accented(features, song.beats), danced
 
     def _standing(self, features: Tensor, danced: Tensor, sampling: Sampling) -> Tensor:
         """Features [T,23,6] in which the text branch fills in what no figure has."""

@@ -10,21 +10,27 @@ from hypothesis import strategies as st
 
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.config_schema import NetworkConfig
+from src.shared.memory.figures import FPS
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.motion.features import ROOT_ROW, integrate_root
+from src.shared.motion.staging import staged
 from src.shared.motion.trajectory import MotionTrajectory
-from src.shared.pipelines.body import Performer
-from src.shared.pipelines.choreography import Choreographer
+from src.shared.pipelines.body import Performer, PerformerSettings
+from src.shared.pipelines.choreography import Choreographer, Wish
 from src.shared.pipelines.dance import (
     PROMPTS,
     DancePrompt,
     DancePrompter,
     SongPerformer,
+    candidate_seed,
     sections,
 )
+from src.shared.pipelines.figure_dance import FigureDancer
 from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator, tiny_network
+from tests.shared.pipelines.test_figure_dance import condition
 
 
 @given(
@@ -128,6 +134,30 @@ def test_clauses_that_no_figure_shows_are_done_in_order(starter: TextToMotion) -
     alike = dancers._clauses("a person waves, then bows", 600, None)
     assert [each.frames for each in alike] == [300, 300]
     assert len(dancers._clauses("a person dances", 600, None)) == 1
+
+
+def test_what_no_figure_shows_is_danced_where_figures_step(starter: TextToMotion) -> None:
+    choreographer = Choreographer(tiny_figures())
+    performer = Performer(starter, PerformerSettings(steps=1, foot_lock=False))
+    led, alone = (
+        SongPerformer(performer, choreographer=each).dance(condition(), "a robot dances").ranked[0]
+        for each in (choreographer, None)
+    )
+    assert not led.figures
+    plan = FigureDancer(choreographer, starter).plan(condition(), Wish(), candidate_seed(0, 3, 0))
+    assert plan is not None and plan.known[:, ROOT_ROW].float().mean() > 0.8
+    assert not plan.known[:, :ROOT_ROW].any()
+    way = integrate_root(staged(plan.values[:, ROOT_ROW], FPS), FPS)[0].numpy()[:, [0, 2]]
+
+    def off(found: MotionTrajectory) -> float:
+        """Up to the second before the figures end, where what comes after is felt."""
+        return float(np.linalg.norm(found.position[:300, [0, 2]] - way[:300], axis=1).max())
+
+    for dance, follows in ((led, True), (alone, False)):
+        assert (off(dance.trajectory) < 0.02) is follows
+    waving = "a person waves with the right hand"
+    found = SongPerformer(performer, choreographer=choreographer).dance(condition(), waving)
+    assert off(found.ranked[0].trajectory) > 0.02
 
 
 def test_what_the_figures_do_not_show_is_said(
