@@ -8,8 +8,8 @@ need not say which one it is in.
 import gc
 import re
 import unicodedata
-from collections.abc import Sequence
-from functools import cache, partial, reduce
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, cached_property, lru_cache, partial, reduce
 from itertools import groupby
 from typing import Any
 
@@ -53,8 +53,47 @@ _NOT_THIS = f"(?:^|(?<=[、。，,]))[^、。，,]{{1,40}}?{_NOT}[、，,]?"
 # German says its verb behind what is done with it.
 _STATT = rf"(?<!{_LETTER})(?:an)?statt\s[^,;.!?]{{0,60}}?\bzu\s+{_LETTER}+n\b,?"
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
+_RUN = rf"[{_CJK}]+|[^\W\d_{_CJK}]+"  # of signs or of letters
 WORD = re.compile(r"\w+")
 NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
+
+
+class Rare:
+    """A pattern that holds one of some words, compiled where a text first has letters of one: most
+    sentences never do, and to compile all of them took a third of a command's time.
+
+    Args:
+        pattern: no text without one of the words matches it.
+        words: as they stand in measures.yaml.
+    """
+
+    def __init__(self, pattern: str, words: Sequence[str]) -> None:
+        self.pattern = pattern
+        self._whole, self._parts = _keys(words)
+
+    @cached_property
+    def _compiled(self) -> re.Pattern[str]:
+        return re.compile(self.pattern, re.I)
+
+    def _may(self, text: str) -> bool:
+        said, own = _said(text)
+        return not self._whole.isdisjoint(own) or any(part in said for part in self._parts)
+
+    def search(self, text: str, start: int = 0) -> re.Match[str] | None:
+        """As of a compiled pattern, and so are the others."""
+        return self._compiled.search(text, start) if self._may(text) else None
+
+    def match(self, text: str, start: int = 0) -> re.Match[str] | None:
+        return self._compiled.match(text, start) if self._may(text) else None
+
+    def fullmatch(self, text: str) -> re.Match[str] | None:
+        return self._compiled.fullmatch(text) if self._may(text) else None
+
+    def finditer(self, text: str) -> Iterator[re.Match[str]]:
+        return self._compiled.finditer(text) if self._may(text) else iter(())
+
+    def sub(self, by: str | Callable[[re.Match[str]], str], text: str) -> str:
+        return self._compiled.sub(by, text) if self._may(text) else text
 
 
 class Words:
@@ -101,7 +140,7 @@ class Words:
         self.short = re.compile(rf"(?<!{_SIGN})(?:{cut})\.(?=\s+{_any(all_of('limbs'))})", re.I)
         idioms = {said: plain for table in tables for plain, many in table.get("idioms", {}).items()
                   for said in many}  # fmt: skip
-        self.idiom = re.compile(_any(idioms), re.I)
+        self.idiom = Rare(_any(idioms), [*idioms])
         plainly = {said.rpartition("|")[2].partition("/")[0]: idioms[said] for said in idioms}
         self.plainly = {bare(said): plain for said, plain in plainly.items()}
         nouns = rf"{_any(all_of('prepositions'))}\s*{_any(all_of('own'))}"
@@ -151,11 +190,14 @@ class Words:
                 return rf"{amount}\s*(?P<manner>{_LETTER}+\s+)?(?P<noun>{_any(steps)})"
             return rf"{amount}[\s-]*{_any(all_of(name))}{half}"
 
-        self.units = {name: re.compile(measure(name), re.I) for name in UNITS}
+        self.units = {
+            name: Rare(measure(name), [*steps] if name == "steps" else all_of(name))
+            for name in UNITS
+        }
         heads_only = rf"(?:^|(?<=[,;:.!?、。])\s*|(?<!{_SIGN}){_any(joints)}\s*)"
         after, later = _any(all_of("after_time")), _any(all_of("later_time"))
         self.pauses = {
-            f"{when}_{name}": re.compile(f"{pattern}{_COMMAS}?", re.I)
+            f"{when}_{name}": Rare(f"{pattern}{_COMMAS}?", all_of(name))
             for name in ("seconds", "minutes")
             for when, pattern in (
                 ("after", rf"(?<!{_SIGN}){after}\s*{measure(name)}"),
@@ -165,13 +207,14 @@ class Words:
         ends = rf"(?=\s*(?:$|{_STOPS}|{_any(joints)}|{then}))"
         verb = rf"(?<!{_LETTER})(?P<verb>{_LETTER}+(?:\s+{_any(all_of('reflexive'))}){{0,2}})\s+"
         rest = rf"\s+(?P<rest>(?:{_any(all_of('again'))}\s+)?{_any(all_of('particles'))}){ends}"
-        lasting = _any([*all_of("seconds"), *all_of("minutes")])
+        lasts = [*all_of("seconds"), *all_of("minutes")]
+        lasting = _any(lasts)
         long = rf"[^\s,;.]+(?:\s+[^\s,;.]+)?\s*{lasting}"
-        self.late = re.compile(rf"{verb}(?P<pause>{after}\s+{long}){rest}", re.I)
+        self.late = Rare(rf"{verb}(?P<pause>{after}\s+{long}){rest}", lasts)
         undone = rf"{_any(all_of('undone'))}(?:\s*{_any(all_of('again'))})*"
         first = rf"(?:\s*{_COMMAS}\s*|\s+|(?<={CJK_SIGN}))"
         joined = rf"(?:{_any(joints)}\s*)?(?:{_any(all_of('then'))}\s*)?"
-        self.undone = re.compile(rf"{first}{joined}{undone}{ends}", re.I)
+        self.undone = Rare(rf"{first}{joined}{undone}{ends}", all_of("undone"))
         # None of them begins within a row of signs, which would be tried from each of them.
         stops = rf"(?<![\s,.;!?:()。、，！？：；（）「」…—–])\s*{_STOPS}\s*"
         blank = rf"(?:{stops}|\s+|(?<={CJK_SIGN}))"
@@ -181,23 +224,25 @@ class Words:
         halts = rf"{_any(all_of('halts'))}(?:\s*{_any(all_of('abruptly'))})*"
         amount = rf"(?:{_DIGITS}|{_any([*numbers, *fractions])})[\s-]*{lasting}"
         ends = rf"(?:{ends}|(?=\s*{_lead()}{amount}))"
-        self.halts = re.compile(rf"{further}{halts}{ends}", re.I)
-        self.halt_alone = re.compile(rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$", re.I)
-        self.crouches = re.compile(_any(all_of("crouches")), re.I)
-        self.head_turns = re.compile(_any(all_of("head_turns")), re.I)
+        self.halts = Rare(rf"{further}{halts}{ends}", all_of("halts"))
+        alone = rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$"
+        self.halt_alone = Rare(alone, all_of("halts"))
+        self.crouches = Rare(_any(all_of("crouches")), all_of("crouches"))
+        self.head_turns = Rare(_any(all_of("head_turns")), all_of("head_turns"))
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
         someone += rf"|{CJK_SIGN}{{1,4}})?"
-        self.downs = re.compile(rf"^{someone}{_any(all_of('downs'))}", re.I)
+        self.downs = Rare(rf"^{someone}{_any(all_of('downs'))}", all_of("downs"))
         whose = _any(all_of("own"))
         subject = rf"^(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
         self.subject = re.compile(subject, re.I)
         bends = rf"{_any(all_of('bends'))}(?:\s*{_any(all_of('bending'))})*\W*$"
         bends = re.sub(f"(?<={CJK_SIGN})SIDE|SIDE(?={CJK_SIGN})", "[左右]", bends)
         bends = bends.replace("SIDE", r"\w+")  # one of them is said somewhere
-        self.bends = re.compile(rf"^(?=.*{_any(all_of('sides'))}){someone}{bends}", re.I)
+        bends = rf"^(?=.*{_any(all_of('sides'))}){someone}{bends}"
+        self.bends = Rare(bends, [word.replace("SIDE", " ") for word in all_of("bends")])
         self.verb_then = re.compile(rf"\s*{_any(all_of('verb_then'))}", re.I)
         again = rf"(?:\s*{_any(all_of('again'))})*"
-        self.ups = re.compile(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", re.I)
+        self.ups = Rare(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", all_of("ups"))
         # "with both arms raised", "mit erhobenen Armen", "arms up" behind a comma, in whole phrases
         arms = _any(sorted({*all_of("limbs")} - {*all_of("fists")}))
         aloft = rf"\s+{_any(all_of('aloft'))}"
@@ -205,11 +250,13 @@ class Words:
         having = rf"{_any(all_of('having'))}\s+(?:{_LETTER}+\s+){{0,3}}?"
         raised = rf"{having}(?:{up}|{_any(all_of('lifted'))}\s+{arms}(?:{aloft})?)"
         alone = rf"(?:^|(?<=[,;:、]))\s*(?:{whose}\s+){{0,3}}{up}(?=\s*(?:$|{_STOPS}))"
-        self.posed = re.compile(rf"{raised}|{alone}|{_any(all_of('posed'))}", re.I)
+        posed = rf"{raised}|{alone}|{_any(all_of('posed'))}"
+        self.posed = Rare(posed, [w for key in ("aloft", "lifted", "posed") for w in all_of(key)])
         holds, kept = _any(all_of("holds")), _any(all_of("kept"))
         there = rf"(?:\s*{_any(all_of('there'))})"
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
-        self.held = re.compile(rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}", re.I)
+        held = rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}"
+        self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
         self.arms = re.compile(_any(all_of("limbs")), re.I)
         self.uncounted = re.compile(_any(all_of("uncounted")), re.I)
         self.about = re.compile(_any(all_of("about")), re.I)
@@ -218,16 +265,16 @@ class Words:
         who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
         instead = rf"{_any(all_of('instead'))}(?:[^,;.!?]{{0,60}}?(?:{who}))?"
         self.instead = re.compile(rf"(?:{instead}|{_STATT}|{_NOT_THIS})\s*", re.I)
-        goals, ways = dict[str, str](), list[str]()
+        goals, ways, verbs_to = dict[str, str](), list[str](), list[str]()
         for table in filter(lambda table: "goals" in table, tables):
             verbs = {verb: plain for plain, many in table["goals"].items() for verb in many}
-            tos = table.get("goes_to", [])
+            tos, verbs_to = table.get("goes_to", []), [*verbs_to, *verbs]
             goals |= {f"{verb} {to}".rstrip(): verbs[verb] for verb in verbs for to in tos or [""]}
             ways.append(rf"{_any(verbs)}\s+{_any(tos)}" if tos else _any(verbs))
         there = rf"{CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
         nowhere = _any([*all_of("left"), *all_of("right"), *all_of("nowhere")])
         goal = rf"(?P<way>{'|'.join(ways)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
-        self.goal = re.compile(goal, re.I)
+        self.goal = Rare(goal, verbs_to)
         self.plainly |= {bare(to): plain for to, plain in goals.items()} | goals
         sideways = _any([*owned, *all_of("toward")])
         self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
@@ -295,6 +342,29 @@ def _misspelt(word: str) -> list[str]:
     doubled = [word[:i] + word[i] + word[i:] for i in range(1, len(word))]
     short = [word[:i] + word[i + 1 :] for i in inner] if len(word) > 4 else []
     return [word, *swapped, *doubled, *short]
+
+
+def _keys(words: Sequence[str]) -> tuple[frozenset[str], tuple[str, ...]]:
+    """Of each word what a text that has it has as well, without case and accents: a whole word in
+    letters, or, in Chinese and Japanese and where a word may go on, signs somewhere."""
+    whole, parts = set[str](), set[str]()
+    for word in words:
+        _, bar, word = word.rpartition("|")
+        word = word.partition("/")[0].removesuffix("$")
+        for each in _misspelt(word[:-1]) if word.endswith("~") else [word]:
+            key = max(re.findall(_RUN, bare(each)), key=len, default=bare(each))
+            if bar and not re.fullmatch(r"[\w\s]+", word):
+                key = ""  # a pattern of its own
+            alone = "*" not in word and re.fullmatch(f"[^\\W\\d_{_CJK}]+", key)
+            (whole if alone else parts).add(key)
+    return frozenset(whole), tuple(parts)
+
+
+@lru_cache(16)
+def _said(text: str) -> tuple[str, frozenset[str]]:
+    """A text without case and accents, and its words in letters."""
+    said = bare(text)
+    return said, frozenset(re.findall(_RUN, said))
 
 
 def bare(word: str) -> str:

@@ -9,12 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.config_loader import parse_yaml
+from src.shared.config_loader import load_yaml, packaged_config, parse_yaml
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.checkpoint import resolve_model
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.pipelines.sentence import Clause, Reading, clauses
-from src.shared.pipelines.words import goes_round, side_of, unlearned
+from src.shared.pipelines.words import (
+    Rare,
+    all_words,
+    goes_round,
+    plain_text,
+    side_of,
+    unlearned,
+)
 
 ACTIONS = {
     "walk": ("walk", "camina", "march", "geht", "geh", "lauf", "歩", "走"),
@@ -321,6 +328,34 @@ def test_who_is_said_not_to_do_it_does_not(sentence: str, parts: list[str]):
 def test_words_that_two_languages_share_cost_no_time():
     sentence = "walks, " + "un " * 60 + "x"  # each of them doubled the time
     assert clauses(sentence, read) == [Clause(sentence)]
+
+
+def test_no_pattern_is_passed_over_that_would_match():
+    """Words of measures.yaml, whose letters say which patterns are worth compiling."""
+    path = Path(__file__).parents[3] / "benchmarks" / "development.yaml"
+    words, texts = all_words(), set(_texts(parse_yaml(path.read_text(encoding="utf-8"), str(path))))
+    texts |= set(_texts(load_yaml(packaged_config("measures.yaml"))))
+    texts |= {f"Für drei {each} là 360° 5s 3m, 向{each}左拐" for each in sorted(texts)[::7]}
+    rare = {name: each for name, each in vars(words).items() if isinstance(each, Rare)}
+    rare |= words.units | words.pauses
+    passed = dict.fromkeys(rare, 0)
+    for text in map(plain_text, sorted(texts)):
+        for name, each in rare.items():
+            found = each._compiled.search(text)
+            passed[name] += each.search(text) is None
+            assert (each.search(text) is None) == (found is None), (name, text)
+    assert len(rare) > 20 and min(passed.values()) > len(texts) / 3
+
+
+def _texts(found: Any) -> list[str]:
+    """All strings of a table."""
+    if isinstance(found, dict):
+        found = list(found.values())
+    return (
+        [found]
+        if isinstance(found, str)
+        else [text for each in (found if isinstance(found, list) else []) for text in _texts(each)]
+    )
 
 
 @given(st.text(max_size=60) | st.text("İıßŉǰΐ yawnsfolé", max_size=30))
