@@ -80,8 +80,9 @@ def told(name: str, rows: Sequence[dict[str, float]]) -> None:
     columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     means = {key: column[np.isfinite(column)].mean() for key, column in columns.items()
              if np.isfinite(column).any()}  # fmt: skip
+    furthest = f"(radius at most {np.nanmax(columns['radius']):.2f})"
     print(f"{name} ({len(rows)})", *(f"{key} {value:.2f}" for key, value in means.items()),
-          sep="  ", flush=True)  # fmt: skip
+          furthest, sep="  ", flush=True)  # fmt: skip
 
 
 def made(kind: str, folder: Path) -> list[Path]:

@@ -392,6 +392,9 @@ def _unit_peak(values: np.ndarray) -> np.ndarray:
 
 QUIET = 0.03  # of the loudness that 5% of the frames exceed
 WAIT = 1.2  # seconds; a shorter silence is a rest of the music
+# Of a noise within a song: seconds over which it is looked at and that it lasts at least, its
+# strongest pitch class by the mean one, and its 90th by its 10th percentile of loudness, at most.
+STEADY, LONG_NOISE, FLAT, EVEN = 1.5, 2.0, 1.5, 1.35
 NOISE = 1.8  # a music's strongest pitch class is so many times the mean one, and a noise's is not
 
 
@@ -405,6 +408,30 @@ def silent_spans(loudness: np.ndarray, fps: float = 30.0) -> list[tuple[int, int
     quiet = loudness <= QUIET * float(np.percentile(loudness, 95))
     edges = np.flatnonzero(np.diff(quiet.astype(int), prepend=0, append=0)).reshape(-1, 2)
     return [(start, stop) for start, stop in edges.tolist() if stop - start >= WAIT * fps]
+
+
+def noise_spans(
+    chroma: np.ndarray, loudness: np.ndarray, fps: float = 30.0
+) -> list[tuple[int, int]]:
+    """First and past-the-last frame of each part of 2 s or more without pitch or stroke: a noise
+    before, within or behind the music, in which a tracker hears beats that nobody played.
+
+    Args:
+        chroma: [12,T].
+        loudness: RMS [T].
+        fps: frames a second.
+    """
+    from scipy.ndimage import median_filter, percentile_filter
+
+    near = 2 * round(STEADY * fps / 2) + 1
+    if len(loudness) < near:
+        return []
+    mean = chroma.mean(0)
+    pitch = np.where(mean > 0, chroma.max(0) / mean.clip(min=1e-9), np.inf)
+    low, high = (percentile_filter(loudness, share, near, mode="nearest") for share in (10, 90))
+    flat = (median_filter(pitch, near, mode="nearest") < FLAT) & (high < EVEN * low)
+    edges = np.flatnonzero(np.diff(flat.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    return [(start, stop) for start, stop in edges.tolist() if stop - start >= LONG_NOISE * fps]
 
 
 def is_noise(chroma: np.ndarray) -> bool:

@@ -43,7 +43,6 @@ SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone ba
 # song is in threes.
 MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
-OTHER = 6.0  # cost of a kind that stands in for the one that is asked for, but in a part b
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
 NO_KIND: frozenset[str] = frozenset()
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
@@ -112,10 +111,20 @@ def song_slots(
     frame = np.clip(np.rint(counts * FPS).astype(int), 0, len(phase))
     alive = (counts >= 0) & (counts <= seconds + 1e-6) & ~silent[frame]
     edges = np.flatnonzero(np.diff(alive.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    gaps = [
+        index + 1
+        for index, (start, stop) in enumerate(pairwise(frame.tolist()))
+        if 2 * silent[start:stop].sum() > stop - start
+    ]  # between two counts that sound
+    runs = [
+        run
+        for first, stop in edges.tolist()
+        for run in pairwise([first, *(gap for gap in gaps if first < gap < stop), stop])
+    ]
     per_phrase, bars_of_phrase = _phrase(bars)
     opening = counts[np.isclose(bars % 1, 0)]
     found: list[np.ndarray] = []
-    for first, stop in edges.tolist():
+    for first, stop in runs:
         opens = first + np.flatnonzero(np.isclose(bars[first:stop] % bars_of_phrase, 0))
         cuts = sorted({first, stop - 1, *opens.tolist()})
         found += _merged([counts[start : end + 1] for start, end in pairwise(cuts)], per_phrase)
@@ -185,6 +194,8 @@ def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
 def _formed(phrases: list[np.ndarray], condition: np.ndarray) -> list[Slot]:
     """Phrases with their loudness, and which earlier one each repeats: a a' b a', and what the
     song plays again."""
+    if not phrases:
+        return []
     heard, loudness = [], []
     for phrase in phrases:
         start, stop = int(phrase[0] * FPS), max(int(phrase[-1] * FPS), int(phrase[0] * FPS) + 1)
@@ -354,25 +365,45 @@ class Choreographer:
         kinds = self._kinds[figures.take]
         upright = figures.low > UPRIGHT
         usual = upright & np.isin(figures.meter, (0, meter))
+        groups = [usual]
         if wish.kinds:
-            fits = np.isin(kinds, sorted(wish.kinds))
-            if 2 * np.count_nonzero(upright[fits]) > np.count_nonzero(
-                fits
+            own = np.isin(kinds, sorted(wish.kinds))
+            if 2 * np.count_nonzero(upright[own]) > np.count_nonzero(
+                own
             ):  # drops to the floor are of dances that live there
-                fits &= upright
-            if beside:
-                fits |= usual & np.isin(kinds, sorted(_beside(wish.kinds)))
-        else:
-            fits = usual
-        if period is not None:
-            fits = fits & (np.abs(figures.count / period - 1) < warp)
-        rows = np.flatnonzero(fits)
-        rank = np.argsort(np.argsort(figures.energy[rows])) / max(len(rows) - 1, 1)
+                own &= upright
+            others = usual & ~own & np.isin(kinds, sorted(_beside(wish.kinds)))
+            groups = [own, others] if beside else [own]
+        rows, ranks = [], []
         low, high = wish.energy
-        inside = (rank >= low) & (rank <= high)
-        if not inside.any():  # of one or two
-            inside[:] = True
-        return figures.rows(rows[inside]), ((rank[inside] - low) / (high - low)).clip(0, 1)
+        for fits in groups:  # "calm" is the calmest of each
+            if period is not None:
+                fits = fits & (np.abs(figures.count / period - 1) < warp)
+            row = np.flatnonzero(fits)
+            rank = np.argsort(np.argsort(figures.energy[row])) / max(len(row) - 1, 1)
+            inside = (rank >= low) & (rank <= high)
+            if not inside.any():  # of one or two
+                inside[:] = True
+            rows.append(row[inside])
+            ranks.append(((rank[inside] - low) / (high - low)).clip(0, 1))
+        return figures.rows(np.concatenate(rows)), np.concatenate(ranks)
+
+    def parted(self, slots: Sequence[Slot], wish: Wish) -> list[Slot]:
+        """The phrases, halved where the kinds that are asked for have no figure as long as one, at
+        any tempo, but shorter ones."""
+        found: list[Slot] = []
+        first: list[int] = []  # half of each phrase
+        for slot in slots:
+            counts = len(slot.counts) - 1
+            halves = bool(wish.kinds) and counts > 5 and not len(self.allowed(counts, wish)[0])
+            cuts = [0, counts // 2, counts] if halves else [0, counts]
+            first.append(len(found))
+            for number, (start, stop) in enumerate(pairwise(cuts)):
+                same = None if slot.same is None else first[slot.same] + number
+                meter = 0 if number else slot.meter
+                own = slot.counts[start : stop + 1]
+                found.append(replace(slot, counts=own, same=same, meter=meter))
+        return found
 
     def _fits(self, slot: Slot, wish: Wish) -> bool:
         """Whether figures of a wish, or what stands in for them, have the tempo of a slot."""
@@ -387,17 +418,23 @@ class Choreographer:
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        # A phrase that nothing fits is no reason to dance none: stretched, or of any kind.
-        for what, warp in ((wish, WARP), (wish, STRETCH), (replace(wish, kinds=NO_KIND), WARP)):
-            found, rank = self.allowed(counts, what, period, slot.meter, beside=True, warp=warp)
+        # What is asked for, a third faster or slower if need be; others in a part b, and where it
+        # has nothing: a phrase that nothing fits is no reason to dance none.
+        aside, tries = slot.part.startswith("b"), [(wish, WARP, False), (wish, STRETCH, False)]
+        tries = [(wish, WARP, True)] * aside + tries * bool(wish.kinds)
+        tries += [
+            (wish, WARP, True),
+            (wish, STRETCH, True),
+            (replace(wish, kinds=NO_KIND), WARP, False),
+        ]
+        for what, warp, beside in tries:
+            found, rank = self.allowed(counts, what, period, slot.meter, beside=beside, warp=warp)
             if len(found):
                 break
         cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
         clear = 2 * found.clear_beats if slot.halved else found.clear
         cost -= CLEAR * clear + NOISE * noise[: len(found)]
         cost += SLIDE * found.slide + BACK * found.back + MADE * (found.meter > 0)
-        if wish.kinds and not slot.part.startswith("b"):
-            cost += OTHER * ~np.isin(self._kinds[found.take], sorted(wish.kinds))
         cost -= THREES * ((found.meter == 3) & (slot.meter == 3))
         kept = np.argsort(cost)[:CANDIDATES]
         return found.rows(kept), cost[kept]

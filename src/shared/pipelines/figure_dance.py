@@ -49,6 +49,7 @@ BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
+ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LONG = 10  # frames; for less the pose is held
 
@@ -123,7 +124,7 @@ class FigureDancer:
         if song.phase is None or len(song.beats) < 2:
             return None
         slots = song_slots(song.beats, song.phase, song.condition.cpu().numpy(), song.waits)
-        frames = len(song.phase)
+        slots, frames = self.choreographer.parted(slots, wish), len(song.phase)
 
         def told_of(done: int, total: int) -> None:
             if progress is not None:
@@ -135,7 +136,8 @@ class FigureDancer:
         features, danced = lay(self.choreographer.memory, slots, chosen, frames)
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
-        return slots, chosen, accented(features, song.beats), danced
+        features, last = accented(features, song.beats), slots[-1].counts
+        return slots, chosen, settled(features, last[-1], last[-1] - last[-1 - ENDING]), danced
 
     def _standing(self, features: Tensor, danced: Tensor, sampling: Sampling) -> Tensor:
         """Features [T,23,6] in which the text branch fills in what no figure has."""
@@ -159,6 +161,8 @@ def named(memory: FigureMemory, figure: Figures, row: int = 0) -> str:
 def listed(choreographer: Choreographer, wish: Wish, counts: int = 8) -> list[dict[str, Any]]:
     """The figures that a wish allows, the clearest first, mirror images apart."""
     found, memory = choreographer.allowed(counts, wish)[0], choreographer.memory
+    if not len(found):  # of short takes alone
+        found = choreographer.allowed(counts := counts // 2, wish)[0]
     rows = [row for row in np.argsort(-found.clear).tolist() if not found.mirrored[row]]
     return [
         {
@@ -341,6 +345,15 @@ def accented(features: Tensor, beats: np.ndarray) -> Tensor:
         late += np.where(np.abs(x) < 0.5, ACCENT * beat * np.sin(2 * np.pi * x) / (2 * np.pi), 0.0)
     shown = np.clip((time - late) * FPS, 0, end)
     return _sampled(features, shown, np.gradient(shown))
+
+
+def settled(features: Tensor, end: float, seconds: float) -> Tensor:
+    """Features [T,23,6] that come to rest at a moment, in the pose that they have there: in the
+    last `seconds` before they first hasten a little (by a third at most), then slow down."""
+    time = np.arange(len(features)) / FPS
+    x = np.where(time < end, (time - end) / seconds + 1, 0.0).clip(min=0)
+    shown = time + seconds * (x**2 - x**3)
+    return _sampled(features, np.clip(shown * FPS, 0, len(features) - 1.0), 1 + 2 * x - 3 * x**2)
 
 
 def _held(features: Tensor, danced: Tensor) -> Tensor:

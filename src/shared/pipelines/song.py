@@ -12,7 +12,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from ..audio.features import is_noise, silent_spans
+from ..audio.features import is_noise, noise_spans, silent_spans
 from ..audio.song import Song, analyse
 from ..config_audio import PostProcessConfig
 from ..data.phrases.layout import phase_rows
@@ -80,12 +80,17 @@ class SongCondition:
 
     @property
     def waits(self) -> list[tuple[int, int]]:
-        """First and past-the-last frame of each part in which nobody dances: silences, and all of
-        a sound that has neither beats nor pitch."""
+        """First and past-the-last frame of each part in which nobody dances: silences, noises, and
+        all of a sound that has neither beats nor pitch."""
         rows = self.condition.cpu().numpy()
         if not len(self.beats) and is_noise(rows[CHROMA]):
             return [(0, rows.shape[1])]
-        return silent_spans(rows[ENERGY.start], FPS)
+        loudness = rows[ENERGY.start]
+        waits = np.zeros(len(loudness), dtype=int)
+        for start, stop in silent_spans(loudness, FPS) + noise_spans(rows[CHROMA], loudness, FPS):
+            waits[start:stop] = 1
+        edges = np.flatnonzero(np.diff(waits, prepend=0, append=0)).reshape(-1, 2).tolist()
+        return [(start, stop) for start, stop in edges]
 
 
 class SongGenerator(Generic[ModelT]):

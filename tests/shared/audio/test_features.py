@@ -14,6 +14,7 @@ from src.shared.audio.features import (
     extract_features,
     is_noise,
     mel_matrix,
+    noise_spans,
     read_arrays,
     silent_spans,
 )
@@ -192,6 +193,20 @@ def test_gaps_of_a_second_and_more() -> None:
     loud[60:120] = loud[200:220] = 0.01
     assert silent_spans(loud) == [(60, 120)]
     assert silent_spans(np.zeros(90)) == [(0, 90)] and silent_spans(np.ones(90)) == []
+
+
+def test_a_noise_within_a_song_is_found() -> None:
+    rng = np.random.default_rng(0)
+    chroma = 0.2 + 0.1 * rng.random((12, 400))
+    chroma[3] = 1.0
+    chroma[3, 100:220] = chroma[3, 300:330] = 0.25  # four seconds, and one
+    loudness = 0.3 + 0.2 * (np.arange(400) % 15 == 0)
+    loudness[100:220] = 0.1 * (1 + 0.05 * rng.random(120))
+    ((start, stop),) = noise_spans(chroma, loudness)
+    assert abs(start - 100) < 25 and abs(stop - 220) < 25
+    drums = np.where(np.arange(400) % 15 < 5, 0.5, 0.01)
+    assert noise_spans(np.full((12, 400), 0.3), drums) == []
+    assert noise_spans(np.full((12, 9), 0.3), np.ones(9)) == []
 
 
 def test_noise_has_no_pitch() -> None:

@@ -23,6 +23,7 @@ from src.shared.pipelines.choreography import (
     unshown,
     wish_of,
 )
+from src.shared.pipelines.figure_dance import listed
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
 
 
@@ -119,6 +120,45 @@ def test_nobody_dances_in_a_gap() -> None:
     slots = song_slots(*song(), waits=[(240, 360)])
     for slot in slots:
         assert slot.counts[-1] <= 8.1 or slot.counts[0] >= 11.9
+
+
+def test_a_gap_without_a_beat_parts_the_phrases() -> None:
+    beats, phase, condition = song()
+    beats = beats[(beats < 8) | (beats > 12)]
+    for slot in (found := song_slots(beats, phase, condition, waits=[(243, 357)])):
+        assert slot.counts[-1] <= 8.1 or slot.counts[0] >= 11.9
+        assert np.diff(slot.counts).max() < 1.0
+    assert found[0].counts[0] < 8 < 12 < found[-1].counts[-1]
+    assert song_slots(beats, phase, condition, waits=[(0, len(phase))]) == []
+
+
+def test_calm_is_the_calmest_of_the_kind_that_is_asked_for() -> None:
+    lively = replace(Take.of(stepping(0.5, sway=0.5), "lively", "salsa"))
+    party = replace(Take.of(stepping(0.5, sway=0.01), "party", "party dance"))
+    choreographer = Choreographer(FigureMemory([lively, party]))
+    wish = Wish(frozenset({"salsa"}), (0.0, 0.4))
+    found, rank = choreographer.allowed(8, wish, beside=True)
+    assert {0, 1} == set(found.take.tolist()) and rank.min() >= 0 and rank.max() <= 1
+    slots = song_slots(*song())
+    chosen = choreographer.choose(slots, wish, 0)
+    assert chosen is not None
+    for slot, figure in zip(slots, chosen, strict=True):
+        assert figure.take[0] == 0 or slot.part.startswith("b")
+
+
+def test_a_kind_of_short_takes_is_danced_in_halves_of_phrases() -> None:
+    short = replace(Take.of(stepping(0.5, frames=70), "short", "tango"))
+    choreographer = Choreographer(FigureMemory([*tiny_figures().takes, short]))
+    tango, slots = Wish(frozenset({"tango"})), song_slots(*song())
+    counts = len(slots[0].counts) - 1
+    assert not len(choreographer.allowed(counts, tango)[0])
+    halves = choreographer.parted(slots, tango)
+    assert len(halves) > len(slots) == len(choreographer.parted(slots, Wish()))
+    assert [h.counts[0] for h in halves[1:]] == [h.counts[-1] for h in halves[:-1]]
+    assert all(half.same is None or half.same < index for index, half in enumerate(halves))
+    chosen = choreographer.choose(halves, tango, 0)
+    assert chosen is not None and {int(figure.take[0]) for figure in chosen} == {3}
+    assert {row["counts"] for row in listed(choreographer, tango)} == {4}
 
 
 def test_the_same_seed_chooses_the_same_and_warps_little() -> None:

@@ -10,7 +10,13 @@ from src.shared.memory.figures import FPS
 from src.shared.metrics.rhythm import body_beats, rhythm
 from src.shared.metrics.seams import body_quantities
 from src.shared.model.diffusion import Sampling
-from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW, decode_features, encode_features
+from src.shared.motion.features import (
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    decode_features,
+    encode_features,
+)
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
 from src.shared.pipelines.dance import SongPerformer
@@ -22,6 +28,7 @@ from src.shared.pipelines.figure_dance import (
     lay,
     listed,
     on_beats,
+    settled,
 )
 from src.shared.pipelines.song import SongCondition
 from tests.shared.memory.tiny_figures import tiny_figures
@@ -97,6 +104,21 @@ def test_beats_that_nothing_marks_slow_the_body_down() -> None:
     assert speed[[30, 45, 60, 75, 90]] == pytest.approx(0.8, abs=0.03)
     assert speed[[37, 52, 67, 82]] == pytest.approx(1.2, abs=0.03)
     assert shown[[30, 60, 90]] == pytest.approx(angle[[30, 60, 90]].numpy(), abs=1e-3)
+
+
+def test_a_dance_comes_to_rest_in_its_last_pose() -> None:
+    spinning = torch.zeros(120, 23, 6)
+    spinning[..., 0] = spinning[..., 4] = 1.0
+    spinning[:, ROOT_ROW, YAW_RATE] = 1.0
+    angle = torch.arange(120.0) * 0.05  # of one shoulder, steadily
+    spinning[:, 16, 0], spinning[:, 16, 1] = angle.cos(), angle.sin()
+    spinning[:, 16, 3], spinning[:, 16, 4] = -angle.sin(), angle.cos()
+    rested = settled(spinning, 3.0, 1.0)
+    shown = np.unwrap(torch.atan2(rested[:, 16, 1], rested[:, 16, 0]).numpy())
+    assert torch.allclose(rested[:60], spinning[:60], atol=1e-5)
+    assert np.abs(np.diff(shown)).max() < 0.05 * 1.4
+    assert shown[89] == pytest.approx(float(angle[90]), abs=0.02)
+    assert abs(shown[89] - shown[87]) < 0.03 and rested[89, ROOT_ROW, YAW_RATE] < 0.15
 
 
 def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
