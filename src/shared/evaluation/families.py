@@ -3,21 +3,28 @@
 Letters: N motions or dances.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from functools import partial
+from functools import cache, partial
 from itertools import chain
 from typing import Any
 
 import numpy as np
+import torch
+from torch import Tensor
 
+from ..memory.figures import FigureMemory
 from ..metrics import frechet, kinetic, retrieval, rhythm
 from ..metrics.measurements import measure
 from ..metrics.physical import contact, physics, travel, travel_error
 from ..metrics.retrieval import BATCH, POOL, RECALL_AT, SUBSET, THRESHOLD
 from ..metrics.sanity import MEASURES, SEVEN, SanityChecker
 from ..metrics.stage import stage
+from ..motion.features import HEIGHT, ROOT_ROW, encode_features, heading_joints
 from ..motion.motion import Motion
+from ..motion.rotations import rotation_6d_to_matrix
+from ..motion.skeleton import MIRROR, NUM_JOINTS
 from ..motion.trajectory import MotionTrajectory
 from ..pipelines.body import root_error
 from .actions import check
@@ -300,6 +307,31 @@ def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]
     return rows
 
 
+EVERY = 10  # frames between those that are looked for in the memory
+
+
+def _on_stage(motion: Motion) -> dict[str, float]:
+    return stage(motion) | {"nearest": 100 * nearest_pose(motion)}
+
+
+def nearest_pose(motion: Motion) -> float:
+    """How far its joints are on average from those of the nearest pose of the shipped figures or
+    their mirror images, metres; root mean square over the joints. A copy has 0."""
+    features = encode_features(motion)[::EVERY]
+    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
+    poses = heading_joints(rotations, features[:, ROOT_ROW, HEIGHT]).flatten(1)
+    apart = torch.cdist(poses, _remembered()).amin(1)
+    return float(apart.mean()) / math.sqrt(NUM_JOINTS)
+
+
+@cache
+def _remembered() -> Tensor:
+    """Poses of the shipped figures and their mirror images [2F,3K]."""
+    poses = torch.from_numpy(FigureMemory.open().poses).float()
+    mirrored = poses[:, list(MIRROR)] * torch.tensor([-1.0, 1.0, 1.0])
+    return torch.cat((poses, mirrored)).flatten(1)
+
+
 BODY_RHYTHM = MetricFamily.of("whole-body beats", _moments)
 ON_THE_PATH: MetricFamily[Bodies] = MetricFamily.of(
     "root against the trajectory", lambda sample, *_: [_path_figures(d) for d in sample.dances]
@@ -307,7 +339,7 @@ ON_THE_PATH: MetricFamily[Bodies] = MetricFamily.of(
 FEET = MetricFamily.of("feet", _feet)
 DANCE_FAMILIES: tuple[MetricFamily[Bodies], ...] = (
     BODY_RHYTHM,
-    MetricFamily.of("on stage", lambda sample, *_: sample.each("stage", stage)),
+    MetricFamily.of("on stage", lambda sample, *_: sample.each("stage", _on_stage)),
     BODY_KINETICS,
     ON_THE_PATH,
     FEET,

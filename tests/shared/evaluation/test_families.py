@@ -2,8 +2,16 @@
 
 import pytest
 
-from src.shared.evaluation.families import AUDIO_FAMILIES, DANCE_FAMILIES, TEXT_FAMILIES
+from src.shared.data.synthetic.clips import generate_clip, spec_for
+from src.shared.evaluation.families import (
+    AUDIO_FAMILIES,
+    DANCE_FAMILIES,
+    TEXT_FAMILIES,
+    nearest_pose,
+)
 from src.shared.evaluation.tables import WORDS, Column
+from src.shared.memory.figures import FigureMemory
+from src.shared.motion.features import decode_features, encode_features, mirror_features
 
 
 @pytest.mark.parametrize("families", [TEXT_FAMILIES, AUDIO_FAMILIES, DANCE_FAMILIES])
@@ -25,3 +33,11 @@ def test_what_tables_say_is_whole(kind: str) -> None:
     for column in columns:
         assert column.better in ("high", "low", "real") and column.decimals >= 0
         assert isinstance(column.share, bool) and column.heading
+
+
+def test_a_copy_of_the_memory_is_seen() -> None:
+    take = FigureMemory.open().takes[3].motion.frames(0, 120)
+    mirrored = decode_features(mirror_features(encode_features(take)))
+    other = generate_clip(spec_for({"action": "jump", "count": "1", "direction": "up", "speed": "normal"}, 0), 0)
+    assert nearest_pose(take) < 0.002 and nearest_pose(mirrored) < 0.002
+    assert nearest_pose(other) > 0.03

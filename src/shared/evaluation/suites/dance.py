@@ -208,7 +208,10 @@ class DanceContext:
             sampling = replace(self.sampling, foot_lock=False, seed=own)
             made = dancer.dance(song, Wish(), sampling=sampling, foot_lock=False)
             if made is not None:
-                found.append(Dance(piece.name, lock_feet(made[0]), piece.beats, raw=made[0]))
+                raw, frames = made[0], made[0].num_frames
+                joins = [round(figure.start * FPS) for figure in made[1][1:]]
+                near = marked(frames, ((at, at) for at in joins))
+                found.append(Dance(piece.name, lock_feet(raw), piece.beats, raw=raw, seams=near))
         return DanceSample.of(found)
 
     def frozen_pose(self, replication: int) -> Bodies:
@@ -275,7 +278,7 @@ class DanceContext:
         if not len(self.reference):
             return []
         made = self.danced("generated", 0).dances
-        rows = {"generated": made, "hard cut": hard_cuts(made)}
+        rows = {"generated": made, "figures": self.figured(0).dances, "hard cut": hard_cuts(made)}
         if self.settings.untrained:
             rows["untrained"] = self.danced("untrained", 0).dances
         real = [dance.motion for dance in self.reference.dances]
