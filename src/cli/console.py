@@ -257,15 +257,22 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 def lines(what: str) -> Callable[[int, int], None]:
-    """Told (done, in all), it says so every `LINE_SECONDS`, with the seconds that are left."""
-    began = last = time.monotonic()
+    """Told (done, in all), it says so every `LINE_SECONDS`, with the seconds that are left, counted
+    from the first time on, before which models are loaded."""
+    last, first = time.monotonic(), (0, 0.0)
 
     def told(done: int, total: int) -> None:
-        nonlocal last
+        nonlocal last, first
         now = time.monotonic()
+        before, began = first
+        if not began:
+            first = done, now
         if 0 < done < total and now - last >= LINE_SECONDS:
-            left = (now - began) / done * (total - done)
-            tell(f"{done} of {total} {what}, about {left:.0f} s left")
+            left = ""
+            if began and done > before:
+                seconds = (now - began) / (done - before) * (total - done)
+                left = f", about {seconds:.0f} s left"
+            tell(f"{done} of {total} {what}{left}")
             last = now
 
     return told

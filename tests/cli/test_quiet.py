@@ -50,10 +50,12 @@ def test_without_a_screen_progress_is_a_line_now_and_then(
     monkeypatch.setattr(console, "LINE_SECONDS", 0.0)
     with console.progress_bar("motions") as done:
         done(64, 300)
+        done(128, 300)
         done(300, 300)
     told = capsys.readouterr().err.splitlines()
-    assert len(told) == 1, "nothing is left to wait for after the last one"
-    assert told[0].startswith("64 of 300 motions, about ") and told[0].endswith(" s left")
+    assert len(told) == 2, "nothing is left to wait for after the last one"
+    assert told[0] == "64 of 300 motions", "models were loaded until then"
+    assert told[1].startswith("128 of 300 motions, about ") and told[1].endswith(" s left")
     monkeypatch.setattr(console, "_quiet", True)
     with console.progress_bar("motions") as done:
         done(64, 300)

@@ -355,13 +355,14 @@ class Performer:
             first=(own.seed if seed is None else seed) % 2,
         )
         if plan is not None:
-            known = replace(known, values=plan.keep(known.values), known=known.known | plan.known)
+            known = plan.over(known)
         features = self._sampled(passages, known, seed, progress, waits)
-        root, fps = features[:, ROOT_ROW], self.generator.card.fps
+        fps, root = self.generator.card.fps, features[:, ROOT_ROW]
         if plan is None:
             features[:, ROOT_ROW] = steered(circling(root, fps), fps)
         else:
-            features[:, ROOT_ROW] = staged(plan.keep(features)[:, ROOT_ROW], fps)
+            features = plan.keep(features)
+            features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
         )

@@ -319,16 +319,21 @@ class SongPerformer:
     def _plan(
         self, song: SongCondition, passages: Sequence[Passage], seed: int
     ) -> Constraint | None:
-        """Ways and landings of figures, where a passage dances; None where none does or fits."""
-        dances = {each.text: self._dances(each.text) for each in passages}
-        if self.choreographer is None or not any(dances.values()):
+        """Steps of figures, where a passage dances; None where none does or fits."""
+        if self.choreographer is None:
             return None
-        found = FigureDancer(self.choreographer, self.performer.generator).plan(song, Wish(), seed)
-        if found is not None:
-            lengths = torch.tensor([each.frames for each in passages])
-            shown = torch.tensor([dances[each.text] for each in passages])
-            found.known[~shown.repeat_interleave(lengths)] = False
-        return found
+        kinds, texts = self.choreographer.kinds, {each.text for each in passages}
+        dances = {text for text in texts if self._dances(text)}
+        asked = dances | {text for text in texts if unshown(text, kinds)}
+        if not asked:
+            return None
+        lengths = torch.tensor([each.frames for each in passages])
+        where, seen = (
+            torch.tensor([each.text in own for each in passages]).repeat_interleave(lengths)
+            for own in (asked, dances)
+        )
+        dancer = FigureDancer(self.choreographer, self.performer.generator)
+        return dancer.plan(song, Wish(), seed, where, seen)
 
     def _in_figures(
         self,

@@ -39,8 +39,9 @@ from ..motion.rotations import (
     quaternion_to_matrix,
     rotation_6d_to_matrix,
 )
-from ..motion.skeleton import NUM_JOINTS
+from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 from ..motion.staging import carried, staged
+from .body import PELVIS
 from .choreography import Choreographer, Slot, Wish, song_slots
 from .edit import fill_free
 from .song import SongCondition
@@ -51,6 +52,8 @@ REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
 ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
+LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
+STEPPING = [PELVIS, *(JOINT_INDEX[joint] for joint in LEGS), ROOT_ROW]
 LONG = 10  # frames; for less the pose is held
 
 
@@ -101,21 +104,28 @@ class FigureDancer:
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
         return motion, told(self.choreographer, slots, chosen)
 
-    def plan(self, song: SongCondition, wish: Wish, seed: int) -> Constraint | None:
-        """Where figures lead on a song of T frames and when their feet stand: the root rows, for a
-        body that is made otherwise. None where no figure fits.
+    def plan(
+        self, song: SongCondition, wish: Wish, seed: int, where: Tensor, seen: Tensor
+    ) -> Constraint | None:
+        """Steps of figures on a song of T frames, for a body whose trunk, head and arms are made of
+        words: root rows, pelvis and legs are known. None where no figure fits.
 
         Args:
             song, wish: see `dance`.
             seed: with them it decides everything.
+            where: frames [T] bool that dance.
+            seen: frames [T] bool in which the network is shown legs, too: it makes a dance of
+                what it sees, whatever the words say.
         """
         found = self._laid(song, wish, seed)
         if found is None:
             return None
         *_, features, danced = found
         known = torch.zeros(features.shape, dtype=torch.bool)
-        known[:, ROOT_ROW] = danced[:, None]
-        return Constraint(features, known)
+        known[:, STEPPING] = (danced & where)[:, None, None]
+        shown = known & seen[:, None, None]
+        shown[:, ROOT_ROW] = known[:, ROOT_ROW]
+        return Constraint(features, known, shown=shown)
 
     def _laid(
         self, song: SongCondition, wish: Wish, seed: int, progress: Progress | None = None

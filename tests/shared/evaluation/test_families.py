@@ -38,6 +38,8 @@ def test_what_tables_say_is_whole(kind: str) -> None:
 def test_a_copy_of_the_memory_is_seen() -> None:
     take = FigureMemory.open().takes[3].motion.frames(0, 120)
     mirrored = decode_features(mirror_features(encode_features(take)))
-    other = generate_clip(spec_for({"action": "jump", "count": "1", "direction": "up", "speed": "normal"}, 0), 0)
+    other = generate_clip(
+        spec_for({"action": "jump", "count": "1", "direction": "up", "speed": "normal"}, 0), 0
+    )
     assert nearest_pose(take) < 0.002 and nearest_pose(mirrored) < 0.002
     assert nearest_pose(other) > 0.03

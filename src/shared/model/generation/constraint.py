@@ -135,6 +135,16 @@ class Constraint:
         shown = None if self.shown is None else self.shown[start:stop]
         return Constraint(self.values[start:stop], self.known[start:stop], beats, shown)
 
+    def over(self, other: "Constraint") -> "Constraint":
+        """Both, of T frames each; its own entries and beats where both give some."""
+        ours, theirs = (each.known if each.shown is None else each.shown for each in (self, other))
+        return Constraint(
+            self.keep(other.values),
+            self.known | other.known,
+            other.beats if self.beats is None else self.beats,
+            ours | (theirs & ~self.known),
+        )
+
     def keep(self, features: Tensor) -> Tensor:
         """Raw features [T, K, C] with the known entries as they were given."""
         rows = features.shape[1]
