@@ -373,6 +373,12 @@ def test_shipped_cards_have_their_metadata(folder: Path):
     assert data.library_name == "motionsuite" and data.pipeline_tag == TASKS[kind][0]
     assert TASKS[kind][1] in data.tags and data.datasets and data.eval_results
     card, own = render_card(folder, REPO), (folder / "README.md").read_text("utf-8")
+    told = own.split("---", 2)[2]
+    for result in data.eval_results:
+        value = f"{result.metric_value:g}"
+        assert re.search(
+            rf"(?<![\d.]){re.escape(value.removeprefix('0'))}(?!\d)|{value}(?!\d)", told
+        ), value
     assert card.count("\n") == own.count("\n") and card[:200] == own[:200], "nothing to add"
     assert not re.search(r"\]\((?!https?://)", card), "a link that is dead there"
 
