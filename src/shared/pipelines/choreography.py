@@ -38,6 +38,7 @@ REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
+ON_BOTH = 8.0  # cost of both feet in the air at the end; half of it of one
 SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
 # Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
 # song is in threes.
@@ -306,8 +307,9 @@ class Choreographer:
             ends, furthest = (_places(place, way, found.turn) for way in (found.travel, found.far))
             for at, free in ((ends, FREE), (furthest, 2 * FREE)):
                 cost += STAGE * np.maximum(np.linalg.norm(at[..., :2], axis=-1) - free, 0)
-            front = FRONT + AT_END * (index == len(slots) - 1)
-            cost += front * (1 - np.cos(ends[..., 2]))
+            last = index == len(slots) - 1
+            cost += (FRONT + AT_END * last) * (1 - np.cos(ends[..., 2]))
+            cost += ON_BOTH * last * (found.leave[:, -2:] == 0).mean(1)
             best = cost.argmin(0)
             column = np.arange(len(found))
             value, place = cost[best, column], ends[best, column]

@@ -54,7 +54,7 @@ ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
 STEPPING = [PELVIS, *(JOINT_INDEX[joint] for joint in LEGS), ROOT_ROW]
-LONG = 10  # frames; for less the pose is held
+LONG, LAST = 10, 45  # frames; for less the pose is held, and at the end of all
 
 
 class FigureDancer:
@@ -153,7 +153,7 @@ class FigureDancer:
         """Features [T,23,6] in which the text branch fills in what no figure has."""
         edges = np.flatnonzero(np.diff((~danced).numpy().astype(int), prepend=0, append=0))
         for start, stop in edges.reshape(-1, 2).tolist():
-            if stop - start < LONG:
+            if stop - start < (LAST if stop == len(features) else LONG):
                 continue
             known = torch.ones(features.shape, dtype=torch.bool)
             known[start:stop] = False
@@ -359,7 +359,11 @@ def accented(features: Tensor, beats: np.ndarray) -> Tensor:
 
 def settled(features: Tensor, end: float, seconds: float) -> Tensor:
     """Features [T,23,6] that come to rest at a moment, in the pose that they have there: in the
-    last `seconds` before they first hasten a little (by a third at most), then slow down."""
+    last `seconds` before they first hasten a little (by a third at most), then slow down. Who is in
+    the air then is left there as long as he was."""
+    at = min(round(end * FPS), len(features) - 1)
+    if not features[at, ROOT_ROW, LEFT_CONTACT:].any():
+        return features
     time = np.arange(len(features)) / FPS
     x = np.where(time < end, (time - end) / seconds + 1, 0.0).clip(min=0)
     shown = time + seconds * (x**2 - x**3)

@@ -109,10 +109,13 @@ def test_beats_that_nothing_marks_slow_the_body_down() -> None:
 def test_a_dance_comes_to_rest_in_its_last_pose() -> None:
     spinning = torch.zeros(120, 23, 6)
     spinning[..., 0] = spinning[..., 4] = 1.0
+    spinning[:, ROOT_ROW] = 0.0
     spinning[:, ROOT_ROW, YAW_RATE] = 1.0
     angle = torch.arange(120.0) * 0.05  # of one shoulder, steadily
     spinning[:, 16, 0], spinning[:, 16, 1] = angle.cos(), angle.sin()
     spinning[:, 16, 3], spinning[:, 16, 4] = -angle.sin(), angle.cos()
+    assert settled(spinning, 3.0, 1.0) is spinning  # in the air
+    spinning[:, ROOT_ROW, LEFT_CONTACT:] = 1.0
     rested = settled(spinning, 3.0, 1.0)
     shown = np.unwrap(torch.atan2(rested[:, 16, 1], rested[:, 16, 0]).numpy())
     assert torch.allclose(rested[:60], spinning[:60], atol=1e-5)
