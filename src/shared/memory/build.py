@@ -38,8 +38,7 @@ from ..io.storage import Backoff, Place, Unreachable, fetched, files_below, plac
 from ..model.audio.shared_space import SharedSpace
 from ..motion.features import LEFT_CONTACT, ROOT_ROW
 from ..motion.motion import Motion
-from ..motion.rotations import quaternion_exp, quaternion_log
-from ..motion.skeleton import JOINT_INDEX
+from ..motion.staging import without_flips
 from ..motion.trajectory import FPS, encode_window, place_window
 from .figures import FigureMemory, Take
 from .folders import INTEGERS, KEY_TENSORS, MANIFEST, MOTION_TENSORS, TEXTS, writable
@@ -529,56 +528,3 @@ def repeated(motion: Motion, times: int) -> Motion:
         root_position=np.tile(motion.root_position, (times, 1)),
         contacts=np.tile(motion.contacts, (times, 1)),
     )
-
-
-BENT = {  # degrees from the rest pose, at most: of joints that capture knows by a marker or two
-    **dict.fromkeys(("l_wrist", "r_wrist", "l_ankle", "r_ankle", "l_foot", "r_foot"), 120.0),
-    **{"neck": 75.0, "head": 90.0},
-    **dict.fromkeys(("l_shoulder", "r_shoulder", "l_elbow", "r_elbow"), 180.0),  # snaps alone
-}
-SNAP = 40.0  # degrees in a frame
-
-
-def without_flips(motion: Motion) -> Motion:
-    """A motion whose head, arms and feet neither turn over nor snap from one frame to the next.
-
-    In some takes a head hangs upside down in its chest, or a hand turns over and back within three
-    frames (CMU 60_06, 60_09). Such frames lead from the last sound one to the next; where a take
-    has none, the joint is straight. A joint stays as it was where that would snap more often.
-    """
-    turns = motion.quaternions.astype(np.float64).copy()
-    for name, most in BENT.items():
-        own = turns[:, JOINT_INDEX[name]]
-        sound = _degrees(own, np.array([1.0, 0.0, 0.0, 0.0])) <= most
-        snaps = _snaps(own)
-        sound[np.unique(np.clip(snaps[:, None] + np.arange(-1, 3), 0, len(own) - 1))] = False
-        mended = _led_over(own, sound)
-        if len(_snaps(mended)) <= len(snaps):
-            own[:] = mended
-    return replace(motion, quaternions=turns.astype(np.float32))
-
-
-def _led_over(turns: np.ndarray, sound: np.ndarray) -> np.ndarray:
-    """Rotations [T, 4] of which those that are not sound lead from one that is to the next."""
-    good = np.flatnonzero(sound)
-    if not len(good):
-        return np.tile([1.0, 0.0, 0.0, 0.0], (len(turns), 1))
-    frames = np.clip(np.arange(len(turns)), good[0], good[-1])
-    after = np.searchsorted(good, frames)
-    last, coming = good[np.maximum(after - 1, 0)], good[after]
-    way = torch.as_tensor((frames - last) / np.maximum(coming - last, 1))[:, None]
-    # as rotation vectors, so that the way is nowhere bent further than its ends are
-    start, end = (quaternion_log(torch.as_tensor(turns[ends])) for ends in (last, coming))
-    between = quaternion_exp(torch.lerp(start, end, way)).numpy()
-    return np.where(sound[:, None], turns, between)
-
-
-def _snaps(turns: np.ndarray) -> np.ndarray:
-    """Frames after which rotations [T, 4] turn by more than SNAP."""
-    return np.flatnonzero(_degrees(turns[1:], turns[:-1]) > SNAP)
-
-
-def _degrees(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Between unit quaternions [N, 4]."""
-    cosine = np.clip(np.abs((one * other).sum(-1)), 0.0, 1.0)
-    return np.asarray(np.degrees(2 * np.arccos(cosine)))

@@ -9,7 +9,7 @@ Letters: T frames, C counts of a cycle.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -41,6 +41,8 @@ COUNTS = 24  # of a take, at least
 SWING = 0.6  # of a count, in which a foot is off the floor
 ARRIVES = 0.85  # of a count, in which the body goes to where it is on the count
 CLEARANCE = 0.07  # metres
+HURRIED = 1.7  # m/s of the pelvis: who counts fast makes small steps
+APART = 0.1  # metres from the middle, of a foot that goes nowhere
 
 
 @dataclass(frozen=True)
@@ -240,10 +242,26 @@ def made_take(steps: Steps, period: float, number: int = 0) -> Take:
     counts = np.arange(-(-COUNTS // length) * length + 1)
     time = np.arange(round((len(counts) + 1) * period * FPS)) / FPS / period - 1  # counts
     body = _body(steps, time, period)
+    pelvis = np.diff(body.position[:, [0, 2]], axis=0)
+    quickest = float(np.linalg.norm(pelvis, axis=1).max()) * FPS
+    if quickest > HURRIED:
+        body = _body(_narrowed(steps, HURRIED / quickest), time, period)
     name = f"{steps.kind.replace(' ', '-')}-{number}-{60 / period:.0f}bpm"
     return Take(
         name, steps.kind, SOURCE, LICENCE, solve(body), (counts + 1) * period, meter=steps.meter
     )
+
+
+def _narrowed(steps: Steps, share: float) -> Steps:
+    """With so much of the way that each foot goes from where it would stand in the middle."""
+    landings = []
+    for each in steps.landings:
+        if each is not None:
+            base = APART if each.foot in "Ll" else -APART
+            left = base + share * (each.left - base)
+            each = replace(each, left=left, forward=share * each.forward)
+        landings.append(each)
+    return replace(steps, landings=tuple(landings))
 
 
 # ---------------------------------------------------------------- the body

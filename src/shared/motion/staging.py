@@ -14,17 +14,30 @@ Letters: T frames.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..tensors import Tensor, torch
-from .features import FORWARD, HEIGHT, LATERAL, ROOT_ROW, YAW_RATE, heading_joints, integrate_root
+from .features import (
+    FORWARD,
+    HEIGHT,
+    LATERAL,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    heading_joints,
+    integrate_root,
+)
 from .filters import smoothed
+from .motion import Motion
 from .rotations import (
     axis_angle_to_matrix,
     matrix_to_quaternion,
     matrix_to_rotation_6d,
+    quaternion_exp,
+    quaternion_log,
     quaternion_slerp,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
@@ -181,3 +194,88 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
         z += forward * math.cos(heading) - left * math.sin(heading)
         heading += row[YAW_RATE] / fps
     return torch.tensor(values, dtype=root.dtype)
+
+
+def resampled(features: Tensor, frame: np.ndarray, rate: np.ndarray) -> Tensor:
+    """Features [t,23,6] at frames [t] of some [F,23,6], gone through at rates [t]."""
+    low = np.clip(np.floor(frame).astype(int), 0, len(features) - 2)
+    share = torch.from_numpy(frame - low).float()[:, None, None]
+    found = torch.lerp(features[low], features[low + 1], share)
+    near = features[np.rint(frame).astype(int), ROOT_ROW, LEFT_CONTACT:]
+    found[:, ROOT_ROW, LEFT_CONTACT:] = near
+    way = [FORWARD, LATERAL, YAW_RATE]
+    found[:, ROOT_ROW, way] *= torch.from_numpy(rate).float()[:, None]
+    return found
+
+
+def settled(features: Tensor, end: float, seconds: float, fps: float = 30.0) -> Tensor:
+    """Features [T,23,6] that come to rest at a moment, in the pose that they have there: in the
+    last `seconds` before they first hasten a little (by a third at most), then slow down. Who is in
+    the air then is left there as long as he was."""
+    at = min(round(end * fps), len(features) - 1)
+    if not features[at, ROOT_ROW, LEFT_CONTACT:].any():
+        return features
+    time = np.arange(len(features)) / fps
+    x = np.where(time < end, (time - end) / seconds + 1, 0.0).clip(min=0)
+    shown = time + seconds * (x**2 - x**3)
+    return resampled(features, np.clip(shown * fps, 0, len(features) - 1.0), 1 + 2 * x - 3 * x**2)
+
+
+BENT = {  # degrees from the rest pose, at most: of joints that capture knows by a marker or two
+    **dict.fromkeys(("l_wrist", "r_wrist", "l_ankle", "r_ankle", "l_foot", "r_foot"), 120.0),
+    **{"neck": 75.0, "head": 90.0},
+    **dict.fromkeys(("l_shoulder", "r_shoulder", "l_elbow", "r_elbow"), 180.0),  # snaps alone
+}
+SNAP = 40.0  # degrees in a frame
+
+
+def without_flips(motion: Motion, around: int = 2, joints: Collection[str] = BENT) -> Motion:
+    """A motion whose head, arms and feet neither turn over nor snap from one frame to the next.
+
+    In some takes a head hangs upside down in its chest, or a hand turns over and back within three
+    frames (CMU 60_06, 60_09). Such frames lead from the last sound one to the next; where a take
+    has none, the joint is straight. A joint stays as it was where that would snap more often.
+
+    Args:
+        motion: of T frames.
+        around: frames before and behind a snap that are not sound either.
+        joints: of those in BENT.
+    """
+    turns = motion.quaternions.astype(np.float64).copy()
+    for name in joints:
+        own = turns[:, JOINT_INDEX[name]]
+        sound = _degrees(own, np.array([1.0, 0.0, 0.0, 0.0])) <= BENT[name]
+        snaps = _snaps(own)
+        sound[
+            np.unique(np.clip(snaps[:, None] + np.arange(1 - around, 1 + around), 0, len(own) - 1))
+        ] = False
+        mended = _led_over(own, sound)
+        if len(_snaps(mended)) <= len(snaps):
+            own[:] = mended
+    return replace(motion, quaternions=turns.astype(np.float32))
+
+
+def _led_over(turns: np.ndarray, sound: np.ndarray) -> np.ndarray:
+    """Rotations [T, 4] of which those that are not sound lead from one that is to the next."""
+    good = np.flatnonzero(sound)
+    if not len(good):
+        return np.tile([1.0, 0.0, 0.0, 0.0], (len(turns), 1))
+    frames = np.clip(np.arange(len(turns)), good[0], good[-1])
+    after = np.searchsorted(good, frames)
+    last, coming = good[np.maximum(after - 1, 0)], good[after]
+    way = torch.as_tensor((frames - last) / np.maximum(coming - last, 1))[:, None]
+    # as rotation vectors, so that the way is nowhere bent further than its ends are
+    start, end = (quaternion_log(torch.as_tensor(turns[ends])) for ends in (last, coming))
+    between = quaternion_exp(torch.lerp(start, end, way)).numpy()
+    return np.where(sound[:, None], turns, between)
+
+
+def _snaps(turns: np.ndarray) -> np.ndarray:
+    """Frames after which rotations [T, 4] turn by more than SNAP."""
+    return np.flatnonzero(_degrees(turns[1:], turns[:-1]) > SNAP)
+
+
+def _degrees(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Between unit quaternions [N, 4]."""
+    cosine = np.clip(np.abs((one * other).sum(-1)), 0.0, 1.0)
+    return np.asarray(np.degrees(2 * np.arccos(cosine)))

@@ -36,7 +36,8 @@ from ..motion.rotations import (
     turn_about_y,
     yaw_to_matrix,
 )
-from ..motion.staging import circling, staged, steered
+from ..motion.skeleton import LIMBS
+from ..motion.staging import circling, settled, staged, steered, without_flips
 from ..motion.trajectory import MotionTrajectory, from_motion, to_root
 from .song_sampler import Progress
 from .stream import Passage, stream_features
@@ -124,6 +125,8 @@ def _parity(trajectory: MotionTrajectory, number: np.ndarray) -> int:
     return 0 if gain >= 0 else 1
 
 
+ARMS, SNAPPED = (*LIMBS["left-arm"][1:], *LIMBS["right-arm"][1:]), 4  # frames around a snap
+COMES_TO_REST = 1.0  # seconds in which a body that a plan leads does
 PELVIS = 0  # its row
 
 
@@ -361,11 +364,14 @@ class Performer:
         if plan is None:
             features[:, ROOT_ROW] = steered(circling(root, fps), fps)
         else:
-            features = plan.keep(features)
+            end = int(torch.nonzero(plan.known[:, ROOT_ROW, 0])[-1]) / fps
+            features = settled(plan.keep(features), end, COMES_TO_REST, fps)
             features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
         )
+        if plan is not None:  # the network was shown legs that it did not make
+            motion = without_flips(motion, SNAPPED, ARMS)
         return Performance(motion, from_motion(motion, phase), tuple(passages))
 
     def _sampled(

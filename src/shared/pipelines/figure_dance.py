@@ -40,7 +40,7 @@ from ..motion.rotations import (
     rotation_6d_to_matrix,
 )
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
-from ..motion.staging import carried, staged
+from ..motion.staging import carried, resampled, settled, staged
 from .body import PELVIS
 from .choreography import Choreographer, Slot, Wish, song_slots
 from .edit import fill_free
@@ -99,6 +99,8 @@ class FigureDancer:
         if found is None:
             return None
         slots, chosen, features, danced = found
+        last = slots[-1].counts
+        features = settled(features, last[-1], last[-1] - last[-1 - ENDING])
         features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
         features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
@@ -121,6 +123,9 @@ class FigureDancer:
         if found is None:
             return None
         *_, features, danced = found
+        end = int(torch.nonzero(danced)[-1]) + 1
+        if len(danced) - end < LAST:
+            danced[end:] = True  # in the pose of the last count
         known = torch.zeros(features.shape, dtype=torch.bool)
         known[:, STEPPING] = (danced & where)[:, None, None]
         shown = known & seen[:, None, None]
@@ -146,8 +151,7 @@ class FigureDancer:
         features, danced = lay(self.choreographer.memory, slots, chosen, frames)
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
-        features, last = accented(features, song.beats), slots[-1].counts
-        return slots, chosen, settled(features, last[-1], last[-1] - last[-1 - ENDING]), danced
+        return slots, chosen, accented(features, song.beats), danced
 
     def _standing(self, features: Tensor, danced: Tensor, sampling: Sampling) -> Tensor:
         """Features [T,23,6] in which the text branch fills in what no figure has."""
@@ -296,20 +300,8 @@ def _warped(memory: FigureMemory, figure: Figures, counts: np.ndarray, time: np.
     rate = speed(inside)
     frame = at * FPS
     held = np.clip(frame, first, last - 2)
-    features = _sampled(memory.features, held, np.where(held == frame, rate, 0.0))
+    features = resampled(memory.features, held, np.where(held == frame, rate, 0.0))
     return mirror_features(features) if figure.mirrored[0] else features
-
-
-def _sampled(features: Tensor, frame: np.ndarray, rate: np.ndarray) -> Tensor:
-    """Features [t,23,6] at frames [t] of some [F,23,6], gone through at rates [t]."""
-    low = np.clip(np.floor(frame).astype(int), 0, len(features) - 2)
-    share = torch.from_numpy(frame - low).float()[:, None, None]
-    found = torch.lerp(features[low], features[low + 1], share)
-    near = features[np.rint(frame).astype(int), ROOT_ROW, LEFT_CONTACT:]
-    found[:, ROOT_ROW, LEFT_CONTACT:] = near
-    way = [FORWARD, LATERAL, YAW_RATE]
-    found[:, ROOT_ROW, way] *= torch.from_numpy(rate).float()[:, None]
-    return found
 
 
 def on_beats(features: Tensor, beats: np.ndarray) -> Tensor:
@@ -334,7 +326,7 @@ def on_beats(features: Tensor, beats: np.ndarray) -> Tensor:
         del knots[max(pair, key=lambda knot: abs(to[knot] - at[knot]))]
     warp = PchipInterpolator(to, at)
     time = np.arange(len(features))
-    return _sampled(features, np.clip(warp(time), 0, end), warp.derivative()(time))
+    return resampled(features, np.clip(warp(time), 0, end), warp.derivative()(time))
 
 
 def accented(features: Tensor, beats: np.ndarray) -> Tensor:
@@ -354,20 +346,7 @@ def accented(features: Tensor, beats: np.ndarray) -> Tensor:
         x = (time - at) / beat
         late += np.where(np.abs(x) < 0.5, ACCENT * beat * np.sin(2 * np.pi * x) / (2 * np.pi), 0.0)
     shown = np.clip((time - late) * FPS, 0, end)
-    return _sampled(features, shown, np.gradient(shown))
-
-
-def settled(features: Tensor, end: float, seconds: float) -> Tensor:
-    """Features [T,23,6] that come to rest at a moment, in the pose that they have there: in the
-    last `seconds` before they first hasten a little (by a third at most), then slow down. Who is in
-    the air then is left there as long as he was."""
-    at = min(round(end * FPS), len(features) - 1)
-    if not features[at, ROOT_ROW, LEFT_CONTACT:].any():
-        return features
-    time = np.arange(len(features)) / FPS
-    x = np.where(time < end, (time - end) / seconds + 1, 0.0).clip(min=0)
-    shown = time + seconds * (x**2 - x**3)
-    return _sampled(features, np.clip(shown * FPS, 0, len(features) - 1.0), 1 + 2 * x - 3 * x**2)
+    return resampled(features, shown, np.gradient(shown))
 
 
 def _held(features: Tensor, danced: Tensor) -> Tensor:

@@ -9,10 +9,11 @@ import pytest
 from src.shared.errors import UserError
 from src.shared.formats.arrays import write_npz
 from src.shared.io.storage import Address
-from src.shared.memory.build import build_figures, every_file, read_takes, repeated, without_flips
+from src.shared.memory.build import build_figures, every_file, read_takes, repeated
 from src.shared.memory.figures import FigureMemory, is_figure_memory
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.motion.staging import without_flips
 from tests.files import files_of
 from tests.shared.evaluation.dancers import swinging_arms
 from tests.shared.memory.tiny_figures import stepping

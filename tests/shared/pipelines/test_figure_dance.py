@@ -17,6 +17,7 @@ from src.shared.motion.features import (
     decode_features,
     encode_features,
 )
+from src.shared.motion.staging import settled
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
 from src.shared.pipelines.dance import SongPerformer
@@ -28,7 +29,6 @@ from src.shared.pipelines.figure_dance import (
     lay,
     listed,
     on_beats,
-    settled,
 )
 from src.shared.pipelines.song import SongCondition
 from tests.shared.memory.tiny_figures import tiny_figures
