@@ -11,6 +11,7 @@ import soundfile
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
 from src.shared.formats.arrays import read_npz
+from src.shared.formats.preview.figures import rounds
 from src.shared.formats.preview.trajectory import SongTrack
 from src.shared.formats.registry import export_dance, write_dance_page
 from src.shared.motion.motion import Danced, Motion
@@ -108,6 +109,10 @@ def test_a_stage_shows_the_figures_and_their_counts(tmp_path: Path, track: SongT
         assert first.split() == ["waltz", "0:00", "a", "·", "box@0.5"] and "⇄" in second
         counted = browser.evaluate("[0, 0.3, 1.3, 2.3, 2.8].map((t) => danced(MOTIONS[0], t))")
         assert counted == [[-1, 0], [0, 1], [1, 1], [1, 3], [-1, 0]]
+        ten, six = "{length: 11}", "{length: 7}"
+        said = [browser.evaluate(f"[0, 5, 7, 8].map((i) => counted(i, {n}))") for n in (ten, six)]
+        assert said == [[1, 6, 8, 1], [1, 6, 2, 3]]
+        assert (rounds(8), rounds(10), rounds(6), rounds(12)) == (8, 8, 6, 6)
         browser.wait("document.querySelector('[aria-current]')?.innerText.includes('⇄')")
         browser.evaluate("document.querySelector('.figures button').click()")
         browser.wait("document.querySelector('[aria-current]')?.innerText.startsWith('waltz\\n')")

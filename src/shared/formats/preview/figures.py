@@ -330,6 +330,11 @@ def frames(motion: Motion, size: tuple[int, int] = SIZE) -> Iterator[Image.Image
         yield picture.resize(size, Image.Resampling.BOX)
 
 
+def rounds(counts: int) -> int:
+    """How far dancers count in a figure of so many: to six in twos of threes, else to eight."""
+    return 6 if counts % 6 == 0 else 8
+
+
 def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Image]:
     """The pictures of a dance: the whole stage from the front, the figure and its counts."""
     positions, rotations = motion.kinematics()
@@ -354,7 +359,9 @@ def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Im
                 between = np.array(BACKGROUND) * (1 - 0.8 * glow) + np.array(ACCENT) * 0.8 * glow
                 colour = tuple(between.astype(int).tolist())
                 pen.circle((x, y), radius, colour)
-                pen.text((x, y), str(count + 1), INK, big, anchor="mm")
+                pen.text(
+                    (x, y), str(count % rounds(len(figure.times) - 1) + 1), INK, big, anchor="mm"
+                )
                 named = figure.kind + ", mirrored" * figure.mirrored
                 pen.text((16 * OVERSAMPLE, 42 * OVERSAMPLE), named, INK, small)
         yield picture.resize(STAGE_SIZE, Image.Resampling.BOX)

@@ -40,10 +40,15 @@ function beatAfter({ beats }, time) {
   return low;
 }
 
+/** What a dancer says on count i of a figure: to six in twos of threes, else to eight. */
+function counted(i, counts) {
+  return i % ((counts.length - 1) % 6 === 0 ? 6 : 8) + 1;
+}
+
 /** Number of the figure that is danced at a time, -1 where none is, and which of its counts. */
 function danced({ times }, time) {
   const at = times.findIndex((counts) => counts[0] <= time && time < counts[counts.length - 1]);
-  return [at, at < 0 ? 0 : times[at].findIndex((count) => count > time)];
+  return [at, at < 0 ? 0 : counted(times[at].findIndex((count) => count > time) - 1, times[at])];
 }
 
 /** The walked path in the colours of the bar, with a dot on the floor at each beat. */
@@ -189,7 +194,7 @@ function drawStrip(context, motion, time, width, height, pixel) {
     context.fillStyle = "#2f6fd0";
     context.fillRect(across(counts[0]), 0, pixel, height);
     counts.slice(0, -1).forEach((count, i) => {
-      context.fillText(String(i + 1), across(count) + 6 * pixel, 1.5 * pixel);
+      context.fillText(String(counted(i, counts)), across(count) + 6 * pixel, 1.5 * pixel);
     });
   }
   context.fillStyle = "#c83c5a";
