@@ -38,14 +38,12 @@ REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
-ON_BOTH = 8.0  # cost of both feet in the air at the end; half of it of one
-SLIDE, BACK = 26.0, 0.5  # of both feet sliding all the time; of a metre gone backward
-# Cost of steps made by code, which join well and fill any dance; gain of those in threes where the
-# song is in threes.
+# Of both feet sliding all the time, of a metre gone backward, of both in the air at the end.
+SLIDE, BACK, ON_BOTH = 26.0, 0.5, 8.0
+# Cost of steps made by code, which join well and fill any dance; gain of threes in threes.
 MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
-NO_KIND: frozenset[str] = frozenset()
 ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
 
 
@@ -112,16 +110,10 @@ def song_slots(
     frame = np.clip(np.rint(counts * FPS).astype(int), 0, len(phase))
     alive = (counts >= 0) & (counts <= seconds + 1e-6) & ~silent[frame]
     edges = np.flatnonzero(np.diff(alive.astype(int), prepend=0, append=0)).reshape(-1, 2)
-    gaps = [
-        index + 1
-        for index, (start, stop) in enumerate(pairwise(frame.tolist()))
-        if 2 * silent[start:stop].sum() > stop - start
-    ]  # between two counts that sound
-    runs = [
-        run
-        for first, stop in edges.tolist()
-        for run in pairwise([first, *(gap for gap in gaps if first < gap < stop), stop])
-    ]
+    gap = [False, *(2 * silent[a:b].sum() > b - a for a, b in pairwise(frame.tolist()))]
+    runs = [run for start, end in edges.tolist()
+            for run in pairwise([start, *(i for i in range(start + 1, end) if gap[i]), end])
+            ]  # fmt: skip
     per_phrase, bars_of_phrase = _phrase(bars)
     opening = counts[np.isclose(bars % 1, 0)]
     found: list[np.ndarray] = []
@@ -134,7 +126,7 @@ def song_slots(
         replace(
             slot, meter=meter if np.isclose(opening, slot.counts[0]).any() else 0, halved=halved
         )
-        for slot in _formed(found, condition)
+        for slot in (_formed(found, condition) if found else ())
     ]
 
 
@@ -195,15 +187,13 @@ def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
 def _formed(phrases: list[np.ndarray], condition: np.ndarray) -> list[Slot]:
     """Phrases with their loudness, and which earlier one each repeats: a a' b a', and what the
     song plays again."""
-    if not phrases:
-        return []
     heard, loudness = [], []
     for phrase in phrases:
         start, stop = int(phrase[0] * FPS), max(int(phrase[-1] * FPS), int(phrase[0] * FPS) + 1)
         part = condition[:, start:stop]
         heard.append(part[128:160].mean(1) if part.size else np.zeros(32))
         loudness.append(float(part[160].mean()) if part.size else 0.0)
-    sound = np.array(heard).reshape(len(phrases), -1)
+    sound = np.array(heard).reshape(len(phrases), 32)
     sound = sound - sound.mean(0)
     sound /= np.linalg.norm(sound, axis=1, keepdims=True).clip(min=1e-9)
     ranks = np.argsort(np.argsort(loudness)) / max(len(phrases) - 1, 1)
@@ -370,9 +360,7 @@ class Choreographer:
         groups = [usual]
         if wish.kinds:
             own = np.isin(kinds, sorted(wish.kinds))
-            if 2 * np.count_nonzero(upright[own]) > np.count_nonzero(
-                own
-            ):  # drops to the floor are of dances that live there
+            if 2 * upright[own].sum() > own.sum():  # drops are of dances that live on the floor
                 own &= upright
             others = usual & ~own & np.isin(kinds, sorted(_beside(wish.kinds)))
             groups = [own, others] if beside else [own]
@@ -391,27 +379,32 @@ class Choreographer:
         return figures.rows(np.concatenate(rows)), np.concatenate(ranks)
 
     def parted(self, slots: Sequence[Slot], wish: Wish) -> list[Slot]:
-        """The phrases, halved where the kinds that are asked for have no figure as long as one, at
-        any tempo, but shorter ones."""
+        """The phrases; halved those of which only half has a figure of the kinds asked for."""
         found: list[Slot] = []
         first: list[int] = []  # half of each phrase
         for slot in slots:
             counts = len(slot.counts) - 1
-            halves = bool(wish.kinds) and counts > 5 and not len(self.allowed(counts, wish)[0])
+            period = float(slot.counts[-1] - slot.counts[0]) / counts
+            halves = bool(wish.kinds) and counts > 5
+            for n, some in ((counts, False), (counts // 2, True)):
+                halves = halves and some == bool(
+                    len(self.allowed(n, wish, period, warp=STRETCH)[0])
+                )
             cuts = [0, counts // 2, counts] if halves else [0, counts]
             first.append(len(found))
             for number, (start, stop) in enumerate(pairwise(cuts)):
                 same = None if slot.same is None else first[slot.same] + number
-                meter = 0 if number else slot.meter
+                meter = slot.meter if slot.meter and start % slot.meter == 0 else 0
                 own = slot.counts[start : stop + 1]
                 found.append(replace(slot, counts=own, same=same, meter=meter))
         return found
 
     def _fits(self, slot: Slot, wish: Wish) -> bool:
         """Whether figures of a wish, or what stands in for them, have the tempo of a slot."""
-        counts = len(slot.counts) - 1
+        counts, meter = len(slot.counts) - 1, slot.meter
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        return len(self.allowed(counts, wish, period, slot.meter, beside=True)[0]) > 0
+        most = STRETCH if wish.kinds else WARP
+        return len(self.allowed(counts, wish, period, meter, beside=True, warp=most)[0]) > 0
 
     def _candidates(
         self, slot: Slot, wish: Wish, rng: np.random.Generator
@@ -420,15 +413,13 @@ class Choreographer:
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
-        # What is asked for, a third faster or slower if need be; others in a part b, and where it
-        # has nothing: a phrase that nothing fits is no reason to dance none.
-        aside, tries = slot.part.startswith("b"), [(wish, WARP, False), (wish, STRETCH, False)]
-        tries = [(wish, WARP, True)] * aside + tries * bool(wish.kinds)
-        tries += [
-            (wish, WARP, True),
-            (wish, STRETCH, True),
-            (replace(wish, kinds=NO_KIND), WARP, False),
-        ]
+        # What is asked for, stretched if need be; others in a part b, or where it has none.
+        own = [(wish, WARP, False), (wish, STRETCH, False)] if wish.kinds else []
+        others, any_kind = (
+            [(wish, WARP, True), (wish, STRETCH, True)],
+            replace(wish, kinds=frozenset()),
+        )
+        tries = [*others[: slot.part.startswith("b")], *own, *others, (any_kind, WARP, False)]
         for what, warp, beside in tries:
             found, rank = self.allowed(counts, what, period, slot.meter, beside=beside, warp=warp)
             if len(found):
@@ -513,14 +504,21 @@ def wish_of(sentence: str, kinds: Collection[str], others: Collection[str] = ())
 def unshown(sentence: str, kinds: Collection[str]) -> str:
     """What no figure shows of a sentence that asks for a dance alone; "" of any other."""
     wish, asks, left = _read(sentence, kinds)
-    one = not all_words().then.search(left)
-    return left if one and (asks or wish.kinds) else ""
+    return left if (asks or wish.kinds) and not all_words().then.search(left) else ""
+
+
+def says_dance(sentence: str) -> bool:
+    """Whether a sentence has a word of dance, and does not deny it."""
+    words, text = all_words(), unicodedata.normalize("NFC", sentence).casefold()
+    denied = any(each.search(text) for each in (words.denial, words.lacking, words.refusal))
+    found = [word for word, (about, _) in _words().items() if about == "dance"]
+    return not denied and any(_pattern(word).search(text) for word in found)
 
 
 def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
     """A wish, whether the sentence asks for a dance, and what else it says."""
     rest = unicodedata.normalize("NFC", sentence).casefold()
-    said, wish, wanted = False, Wish(), set()
+    said, staged, named, wish, wanted = False, False, False, Wish(), set()
     names = {_bare(name): ("kinds", name) for name in kinds}
     names |= {name.casefold(): ("kinds", name) for name in kinds}
     for word, (about, what) in sorted(
@@ -531,6 +529,8 @@ def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
             continue
         rest = left
         said |= about == "dance"
+        staged |= about == "scene"
+        named |= about == "kinds" and word not in _dances()["adjectives"]
         if about == "kinds":
             wanted.add(what)
         elif about == "manners":
@@ -541,7 +541,9 @@ def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
     called = {_words().get(_bare(name), ("", name))[1]: name for name in kinds}
     wanted = {kind if kind in kinds else called.get(kind, kind) for kind in wanted}
     left = " ".join(rest.split()).strip(" ,;.:!?、，。") if _WORD.search(rest) else ""
-    asks = said or bool(wanted and not _WORD.search(all_words().then.sub(" ", left)))
+    asks = said or bool(
+        wanted and (named or not staged) and not _WORD.search(all_words().then.sub(" ", left))
+    )
     return replace(wish, kinds=frozenset(wanted)), asks, left
 
 
@@ -552,7 +554,7 @@ def _bare(kind: str) -> str:
 
 
 def named_kinds() -> set[str]:
-    """Kinds that words of some language name, whether or not there is a figure of them."""
+    """Kinds that words of some language name."""
     return {what for about, what in _words().values() if about == "kinds"}
 
 
@@ -561,7 +563,7 @@ def _words() -> dict[str, tuple[str, str]]:
     """Each word with what it is about and, of a kind or a manner, which."""
     found: dict[str, tuple[str, str]] = {}
     for table in _dances()["words"].values():
-        for about in ("plain", "calm", "lively", "dance"):
+        for about in ("plain", "scene", "calm", "lively", "dance"):
             found |= {word.casefold(): (about, "") for word in table[about]}
         for about in ("manners", "kinds"):
             for what, words in table[about].items():

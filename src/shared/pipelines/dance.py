@@ -11,7 +11,7 @@ Letters: N candidates, P prompts, T frames, M beats, D width of the shared space
 """
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Self
@@ -30,7 +30,7 @@ from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
-from .choreography import Choreographer, Wish, named_kinds, unshown, wish_of
+from .choreography import Choreographer, Wish, named_kinds, says_dance, unshown, wish_of
 from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
 from .song import SongCondition
@@ -43,6 +43,8 @@ SPACE = "starter-space"
 SECTION = 6.0  # seconds, about; whole bars where a beat is known
 HEARD = 150  # frames that the audio tower hears at once: it learned from five seconds at most
 SHORTEST = 40  # frames of them
+# Actions that are a dance, and walks whose arms tell who walks: legs of figures are lent to both.
+DANCED, CARRIED = ("dance", "salsa", "indian-dance", "charleston"), ("zombie",)
 CLAUSE = 4.0  # seconds of a clause that does not dance and names no length
 SPEED_WIDTH, HEIGHT_WIDTH, ENERGY_WIDTH = 0.6, 0.12, 0.5  # m/s, m, share: one unit of logit
 
@@ -302,7 +304,7 @@ class SongPerformer:
         wish = wish_of(prompt, here, named_kinds())
         there = f"figures that there are: {', '.join(sorted(here))}"
         if wish is None and (other := unshown(prompt, here)):
-            self._tell(f"no figure shows {other!r}: the model makes it alone; {there}")
+            self._tell(f"no figure shows {other!r}: the model makes it; {there}")
         if wish is None or not wish.kinds:
             return wish
         if missing := wish.kinds - set(here):
@@ -322,9 +324,11 @@ class SongPerformer:
         """Steps of figures, where a passage dances; None where none does or fits."""
         if self.choreographer is None:
             return None
-        kinds, texts = self.choreographer.kinds, {each.text for each in passages}
-        dances = {text for text in texts if self._dances(text)}
-        asked = dances | {text for text in texts if unshown(text, kinds)}
+        said = {each.text for each in passages if says_dance(each.text)}
+        dances = {text for text in said if self._reads(text, DANCED)}
+        scope = self.performer.generator.scope
+        arms = (*CARRIED, *(scope.arms if scope is not None else ()))
+        asked = dances | {text for text in said if self._reads(text, arms)}
         if not asked:
             return None
         lengths = torch.tensor([each.frames for each in passages])
@@ -358,7 +362,7 @@ class SongPerformer:
             if wish.kinds and len(song.beats):
                 named = " or ".join(sorted(wish.kinds))
                 self._tell(
-                    f"no figure of {named} fits the tempo of this song: the model dances alone"
+                    f"no figure of {named} fits the tempo of this song: the model makes the dance"
                 )
             return None
         motion, figures = found
@@ -447,7 +451,9 @@ class SongPerformer:
         parts, fps = SentenceGenerator(generator).clauses(prompt), generator.card.fps
         if len(parts) == 1 or frames < len(parts) * fps:
             return [Passage(prompt, frames, tag)]
-        own = [part.seconds or (None if self._dances(part.text) else CLAUSE) for part in parts]
+        own = [
+            part.seconds or (None if self._reads(part.text, DANCED) else CLAUSE) for part in parts
+        ]
         fixed = [0 if seconds is None else round(seconds * fps) for seconds in own]
         dancing = own.count(None)
         left = frames - sum(fixed)
@@ -457,9 +463,10 @@ class SongPerformer:
         lengths[-1] += frames - sum(lengths)
         return [Passage(part.text, n, tag) for part, n in zip(parts, lengths, strict=True)]
 
-    def _dances(self, text: str) -> bool:
+    def _reads(self, text: str, actions: Collection[str]) -> bool:
+        """Whether a text comes out as one of some actions."""
         found = self.performer.generator.read(text)
-        return found is not None and found.nearest[:1] == ["dance"]
+        return found is not None and bool(found.nearest) and found.nearest[0] in actions
 
     def _embedded(self, passages: Sequence[Passage]) -> Tensor:
         return self.performer.generator.encode_prompts([each.text for each in passages]).pooled

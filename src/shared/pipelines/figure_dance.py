@@ -54,7 +54,7 @@ ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
 STEPPING = [PELVIS, *(JOINT_INDEX[joint] for joint in LEGS), ROOT_ROW]
-LONG, LAST = 10, 45  # frames; for less the pose is held, and at the end of all
+LONG, LAST = 10, 60  # frames; for less the pose is held, and at the end of all
 
 
 class FigureDancer:

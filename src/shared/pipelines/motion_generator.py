@@ -325,8 +325,8 @@ class MotionGenerator:
             audio, meter, seconds, num_samples: see `trajectory`.
             prompt: what the body does; None = what the music says.
             tag: action label beside the prompt.
-            figures: recorded ones, wherever they show what the prompt asks; else the text model
-                dances alone.
+            figures: recorded ones, wherever they show what the prompt asks; else they lend the text
+                model their steps. False = it dances alone.
             follow_path: the audio model makes a path that the body follows.
             path: where it goes instead; see `timeline`. Without times it takes as long as the song.
             style: of the path that is followed, see `trajectory`; None = what the prompt says.

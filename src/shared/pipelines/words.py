@@ -53,7 +53,7 @@ _NOT_THIS = f"(?:^|(?<=[、。，,]))[^、。，,]{{1,40}}?{_NOT}[、，,]?"
 # German says its verb behind what is done with it.
 _STATT = rf"(?<!{_LETTER})(?:an)?statt\s[^,;.!?]{{0,60}}?\bzu\s+{_LETTER}+n\b,?"
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
-_RUN = rf"[{_CJK}]+|[^\W\d_{_CJK}]+"  # of signs or of letters
+_RUN = rf"[{_CJK}]+|(?:{_LETTER})+"  # of signs or of letters, as patterns part words
 WORD = re.compile(r"\w+")
 NUMBERED = re.compile(rf"(?<![^\s,;:.]){_STEP}(\d\d?)\s*[.):](?!\d)\s*", re.I)
 
@@ -355,7 +355,7 @@ def _keys(words: Sequence[str]) -> tuple[frozenset[str], tuple[str, ...]]:
             key = max(re.findall(_RUN, bare(each)), key=len, default=bare(each))
             if bar and not re.fullmatch(r"[\w\s]+", word):
                 key = ""  # a pattern of its own
-            alone = "*" not in word and re.fullmatch(f"[^\\W\\d_{_CJK}]+", key)
+            alone = not bar and "*" not in word and re.fullmatch(f"(?:{_LETTER})+", key)
             (whole if alone else parts).add(key)
     return frozenset(whole), tuple(parts)
 

@@ -131,6 +131,8 @@ def test_it_says_what_it_danced(choreographer: Choreographer) -> None:
     motion, figures = found
     assert motion.num_frames == 360 and np.isfinite(motion.quaternions).all()
     assert {figure.kind for figure in figures} == {"polka"}
+    speed = np.linalg.norm(np.diff(motion.positions(), axis=0), axis=-1).mean(1) * 30
+    assert speed[-3:].max() < 0.15 < speed[30:-60].mean()  # it has come to rest
     assert all(a.stop == pytest.approx(b.start) for a, b in pairwise(figures))
     assert figures[0].told()["name"].startswith("sway@")
     phrase = {each.part.rstrip("'"): each.name for each in figures}

@@ -143,7 +143,8 @@ def control_grid(
             progress(f"controllability: {name}, {len(own)} cells of {number} motions")
             return _measured(own, sampler, seed)
 
-        found = once(f"controllability.{name}", compute)
+        few = "" if len(tasks) == len(CONTROL_TASKS) else f".{len(own)}"
+        found = once(f"controllability.{name}{few}", compute)
         for cell, made, others in zip(own, found["made"], found["others"], strict=True):
             cell.made, cell.others = map(FROM_JSON.validate_python, (made, others))
         return FROM_JSON.validate_python(found["still"])
