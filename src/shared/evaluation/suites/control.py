@@ -133,7 +133,7 @@ def control_grid(
     """
     tasks = _of_known(actions)
     if left := [each.name for each in CONTROL_TASKS if each.name not in {t.name for t in tasks}]:
-        progress(f"controllability: the model knows no action of {', '.join(left)}: left out")
+        progress(f"tasks of actions that the model does not know are left out: {', '.join(left)}")
     languages = [language for language in languages if language in book.languages]
     cells = plan_cells(book, languages, num_seeds, seed, tasks)
 
