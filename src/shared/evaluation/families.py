@@ -307,7 +307,7 @@ def _feet(sample: Bodies, reference: Bodies, seed: int) -> list[dict[str, float]
     return rows
 
 
-EVERY = 10  # frames between those that are looked for in the memory
+LOOKED_UP = 10  # frames between those that are looked for in the memory
 
 
 def _on_stage(motion: Motion) -> dict[str, float]:
@@ -317,7 +317,7 @@ def _on_stage(motion: Motion) -> dict[str, float]:
 def nearest_pose(motion: Motion) -> float:
     """How far its joints are on average from those of the nearest pose of the shipped figures or
     their mirror images, metres; root mean square over the joints. A copy has 0."""
-    features = encode_features(motion)[::EVERY]
+    features = encode_features(motion)[::LOOKED_UP]
     rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS])
     poses = heading_joints(rotations, features[:, ROOT_ROW, HEIGHT]).flatten(1)
     apart = torch.cdist(poses, _remembered()).amin(1)

@@ -1,4 +1,5 @@
-"""How a dancer is staged: in which manner, and kept near the middle and to the front.
+"""How a dancer is staged: in which manner, near the middle and to the front, at rest in the end,
+with joints that turn over or snap led over.
 
 A manner is how somebody carries what they do: bent trunk, bowed head, bent knees, small or wide
 arms. What is danced stays what it is; who dances it changes.

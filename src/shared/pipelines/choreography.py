@@ -384,12 +384,8 @@ class Choreographer:
         first: list[int] = []  # half of each phrase
         for slot in slots:
             counts = len(slot.counts) - 1
-            period = float(slot.counts[-1] - slot.counts[0]) / counts
-            halves = bool(wish.kinds) and counts > 5
-            for n, some in ((counts, False), (counts // 2, True)):
-                halves = halves and some == bool(
-                    len(self.allowed(n, wish, period, warp=STRETCH)[0])
-                )
+            whole = not wish.kinds or counts < 6 or self._fits(slot, wish, counts)
+            halves = not whole and self._fits(slot, wish, counts // 2)
             cuts = [0, counts // 2, counts] if halves else [0, counts]
             first.append(len(found))
             for number, (start, stop) in enumerate(pairwise(cuts)):
@@ -399,12 +395,14 @@ class Choreographer:
                 found.append(replace(slot, counts=own, same=same, meter=meter))
         return found
 
-    def _fits(self, slot: Slot, wish: Wish) -> bool:
-        """Whether figures of a wish, or what stands in for them, have the tempo of a slot."""
-        counts, meter = len(slot.counts) - 1, slot.meter
-        period = float(slot.counts[-1] - slot.counts[0]) / counts
-        most = STRETCH if wish.kinds else WARP
-        return len(self.allowed(counts, wish, period, meter, beside=True, warp=most)[0]) > 0
+    def _fits(self, slot: Slot, wish: Wish, counts: int | None = None) -> bool:
+        """Whether figures of a wish have the tempo of a slot: of its own length, or what stands in
+        for them; or of so many counts, they alone."""
+        own = len(slot.counts) - 1
+        period = float(slot.counts[-1] - slot.counts[0]) / own
+        beside, warp = counts is None, STRETCH if wish.kinds else WARP
+        found, _ = self.allowed(counts or own, wish, period, slot.meter, beside=beside, warp=warp)
+        return len(found) > 0
 
     def _candidates(
         self, slot: Slot, wish: Wish, rng: np.random.Generator
@@ -415,10 +413,8 @@ class Choreographer:
         period = float(slot.counts[-1] - slot.counts[0]) / counts
         # What is asked for, stretched if need be; others in a part b, or where it has none.
         own = [(wish, WARP, False), (wish, STRETCH, False)] if wish.kinds else []
-        others, any_kind = (
-            [(wish, WARP, True), (wish, STRETCH, True)],
-            replace(wish, kinds=frozenset()),
-        )
+        others = [(wish, WARP, True), (wish, STRETCH, True)]
+        any_kind = replace(wish, kinds=frozenset())
         tries = [*others[: slot.part.startswith("b")], *own, *others, (any_kind, WARP, False)]
         for what, warp, beside in tries:
             found, rank = self.allowed(counts, what, period, slot.meter, beside=beside, warp=warp)

@@ -110,7 +110,7 @@ class FigureDancer:
         self, song: SongCondition, wish: Wish, seed: int, where: Tensor, seen: Tensor
     ) -> Constraint | None:
         """Steps of figures on a song of T frames, for a body whose trunk, head and arms are made of
-        words: root rows, pelvis and legs are known. None where no figure fits.
+        words: root rows, pelvis and legs are known. None where no figure fits or falls there.
 
         Args:
             song, wish: see `dance`.
@@ -128,6 +128,8 @@ class FigureDancer:
             danced[end:] = True  # in the pose of the last count
         known = torch.zeros(features.shape, dtype=torch.bool)
         known[:, STEPPING] = (danced & where)[:, None, None]
+        if not known.any():
+            return None
         shown = known & seen[:, None, None]
         shown[:, ROOT_ROW] = known[:, ROOT_ROW]
         return Constraint(features, known, shown=shown)

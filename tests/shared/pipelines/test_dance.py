@@ -148,6 +148,8 @@ def test_what_no_figure_shows_is_danced_where_figures_step(starter: TextToMotion
     every = torch.ones(360, dtype=torch.bool)
     dancer = FigureDancer(choreographer, starter)
     plan = dancer.plan(condition(), Wish(), candidate_seed(0, 3, 0), every, every.logical_not())
+    nowhere = every.logical_not()
+    assert dancer.plan(condition(), Wish(), 0, nowhere, every) is None
     assert plan is not None and plan.known[:, ROOT_ROW].float().mean() > 0.8
     knee, wrist = JOINT_INDEX["l_knee"], JOINT_INDEX["l_wrist"]
     assert plan.known[60, knee].all() and not plan.known[:, wrist].any()

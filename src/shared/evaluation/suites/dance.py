@@ -199,6 +199,11 @@ class DanceContext:
 
     def figured(self, replication: int, *, at_random: bool = False) -> Bodies:
         """Dances of recorded figures, chosen or drawn; a song without beats has none."""
+        how = "at random" if at_random else "chosen"
+        made = partial(self._figured, replication, at_random)
+        return self.memo.once(f"figured {how} {replication}", made)
+
+    def _figured(self, replication: int, at_random: bool) -> Bodies:
         dancer = FigureDancer(self.choreographer, self.generator, at_random=at_random)
         found = []
         for piece in self.pieces:
