@@ -42,7 +42,7 @@ from ..motion.rotations import (
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 from ..motion.staging import carried, resampled, settled, staged
 from .body import PELVIS
-from .choreography import Choreographer, Slot, Wish, song_slots
+from .choreography import PACE, Choreographer, Slot, Wish, song_slots
 from .edit import fill_free
 from .song import SongCondition
 
@@ -50,6 +50,7 @@ BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
+MOST_ACCENT = 2.5  # times that, on beats so much longer than a count: as hard to brake
 ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
@@ -346,7 +347,8 @@ def accented(features: Tensor, beats: np.ndarray) -> Tensor:
         before, at, after = beats[index - 1 : index + 2]
         beat = np.where(time < at, at - before, after - at)
         x = (time - at) / beat
-        late += np.where(np.abs(x) < 0.5, ACCENT * beat * np.sin(2 * np.pi * x) / (2 * np.pi), 0.0)
+        share = ACCENT * np.clip(beat / PACE, 1.0, MOST_ACCENT)
+        late += np.where(np.abs(x) < 0.5, share * beat * np.sin(2 * np.pi * x) / (2 * np.pi), 0.0)
     shown = np.clip((time - late) * FPS, 0, end)
     return resampled(features, shown, np.gradient(shown))
 
