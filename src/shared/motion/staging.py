@@ -212,14 +212,23 @@ def resampled(features: Tensor, frame: np.ndarray, rate: np.ndarray) -> Tensor:
 def settled(features: Tensor, end: float, seconds: float, fps: float = 30.0) -> Tensor:
     """Features [T,23,6] that come to rest at a moment, in the pose that they have there: in the
     last `seconds` before they first hasten a little (by a third at most), then slow down. Who is in
-    the air then is left there as long as he was."""
+    the air then, and lands later, is left so; who does not rests where both feet last stood in
+    those seconds, or one."""
     at = min(round(end * fps), len(features) - 1)
-    if not features[at, ROOT_ROW, LEFT_CONTACT:].any():
+    first = max(0, at - round(seconds * fps))
+    stands = features[first:, ROOT_ROW, LEFT_CONTACT:] > 0.5
+    flies = not stands[at - first].any()
+    if flies and (stands[at - first :].any() or not stands.any()):
         return features
+    if flies:
+        firm = stands.all(1) if stands.all(1).any() else stands.any(1)
+        end = (first + int(torch.nonzero(firm)[-1])) / fps
     time = np.arange(len(features)) / fps
     x = np.where(time < end, (time - end) / seconds + 1, 0.0).clip(min=0)
-    shown = time + seconds * (x**2 - x**3)
-    return resampled(features, np.clip(shown * fps, 0, len(features) - 1.0), 1 + 2 * x - 3 * x**2)
+    shown, rate = time + seconds * (x**2 - x**3), 1 + 2 * x - 3 * x**2
+    if flies:
+        shown, rate = np.minimum(shown, end), np.where(time < end, rate, 0.0)
+    return resampled(features, np.clip(shown * fps, 0, len(features) - 1.0), rate)
 
 
 BENT = {  # degrees from the rest pose, at most: of joints that capture knows by a marker or two

@@ -114,7 +114,16 @@ def test_a_dance_comes_to_rest_in_its_last_pose() -> None:
     angle = torch.arange(120.0) * 0.05  # of one shoulder, steadily
     spinning[:, 16, 0], spinning[:, 16, 1] = angle.cos(), angle.sin()
     spinning[:, 16, 3], spinning[:, 16, 4] = -angle.sin(), angle.cos()
-    assert settled(spinning, 3.0, 1.0) is spinning  # in the air
+    assert settled(spinning, 3.0, 1.0) is spinning  # in the air all along
+    spinning[100:, ROOT_ROW, LEFT_CONTACT:] = 1.0
+    assert settled(spinning, 3.0, 1.0) is spinning  # it lands
+    spinning[100:, ROOT_ROW, LEFT_CONTACT:] = 0.0
+    spinning[:81, ROOT_ROW, LEFT_CONTACT] = 1.0
+    rested = settled(spinning, 3.0, 1.0)  # where a foot last stood
+    shown = np.unwrap(torch.atan2(rested[:, 16, 1], rested[:, 16, 0]).numpy())
+    assert shown[80:] == pytest.approx(float(angle[80]), abs=0.02)
+    assert float(rested[81:, ROOT_ROW, YAW_RATE].abs().max()) < 1e-6
+    assert bool((rested[80:, ROOT_ROW, LEFT_CONTACT] == 1.0).all())
     spinning[:, ROOT_ROW, LEFT_CONTACT:] = 1.0
     rested = settled(spinning, 3.0, 1.0)
     shown = np.unwrap(torch.atan2(rested[:, 16, 1], rested[:, 16, 0]).numpy())
