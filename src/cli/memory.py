@@ -211,7 +211,7 @@ def query_figures(
 ) -> None:
     """The figures that a song is danced in, or those of a kind that words ask for."""
     from ..shared.memory.figures import FigureMemory
-    from ..shared.pipelines.choreography import Choreographer, Wish, song_slots
+    from ..shared.pipelines.choreography import Choreographer, Wish
     from ..shared.pipelines.figure_dance import listed, told
 
     choreographer = Choreographer(FigureMemory.open(folder))
@@ -219,10 +219,7 @@ def query_figures(
         from ..shared.audio.song import analyse
         from ..shared.pipelines.song import SongCondition
 
-        song = SongCondition.of(analyse(ask, meter=meter))
-        slots = []
-        if song.phase is not None:
-            slots = song_slots(song.beats, song.phase, song.condition.numpy(), song.waits)
+        slots = SongCondition.of(analyse(ask, meter=meter)).slots()
         chosen = choreographer.choose(slots, Wish(), 0) if slots else None
         rows = [] if chosen is None else [d.told() for d in told(choreographer, slots, chosen)]
     else:

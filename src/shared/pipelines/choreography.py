@@ -22,12 +22,11 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from ..config_loader import load_yaml, packaged_config
-from ..memory.figures import AXES, FPS, FigureMemory, Figures
+from ..memory.figures import AXES, FigureMemory, Figures
 from ..motion.staging import PLAIN, Manner
-from .body import beats_beyond
+from .song import Slot
 from .words import all_words
 
-PACE = 0.5  # seconds of a count, about; a beat counts half, one or two of them
 WARP, STRETCH = 0.2, 0.35  # of the tempo, at most; of a phrase that no figure fits so
 UPRIGHT = 0.6  # metres; a lower pelvis is asked for, by a kind that is mostly danced so
 CANDIDATES = 400  # figures of a slot, by what they cost alone
@@ -44,7 +43,6 @@ SLIDE, BACK, ON_BOTH = 26.0, 0.5, 8.0
 MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for
 FREE = 0.35  # metres from the middle that cost nothing, twice that on the way
-ALIKE = 0.9  # cosine of what two phrases of a song sound like, from which one is the other again
 
 
 @dataclass(frozen=True)
@@ -62,161 +60,6 @@ class Wish:
     energy: tuple[float, float] = (0.0, 1.0)
     manner: Manner = PLAIN
     unread: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Slot:
-    """A phrase of a song.
-
-    Attributes:
-        counts: seconds of n counts and of the end [n+1].
-        loudness: rank among the phrases, 0 to 1.
-        same: the earlier phrase that it is to repeat; None = none.
-        part: letter of the form.
-        meter: counts of a bar, where the phrase opens one; 0 = it does not.
-        halved: two counts are a beat.
-    """
-
-    counts: np.ndarray
-    loudness: float = 0.5
-    same: int | None = None
-    part: str = "a"
-    meter: int = 0
-    halved: bool = False
-
-
-# ---------------------------------------------------------------- the song
-
-
-def song_slots(
-    beats: np.ndarray,
-    phase: np.ndarray,
-    condition: np.ndarray,
-    waits: Sequence[tuple[int, int]] = (),
-) -> list[Slot]:
-    """The phrases of a song of T frames, in order; none where less than a bar sounds.
-
-    Args:
-        beats: seconds [M], ascending.
-        phase: unwrapped bars [T].
-        condition: what is heard, rows [R,T]; the 160th is the loudness.
-        waits: frames [start, stop) in which nobody dances.
-    """
-    seconds = len(phase) / FPS
-    counts, bars, halved = _counts(beats, phase, seconds)
-    silent = np.zeros(len(phase) + 1, dtype=bool)
-    for start, stop in waits:
-        silent[start:stop] = True
-    frame = np.clip(np.rint(counts * FPS).astype(int), 0, len(phase))
-    alive = (counts >= 0) & (counts <= seconds + 1e-6) & ~silent[frame]
-    edges = np.flatnonzero(np.diff(alive.astype(int), prepend=0, append=0)).reshape(-1, 2)
-    gap = [False, *(2 * silent[a:b].sum() > b - a for a, b in pairwise(frame.tolist()))]
-    runs = [run for start, end in edges.tolist()
-            for run in pairwise([start, *(i for i in range(start + 1, end) if gap[i]), end])
-            ]  # fmt: skip
-    per_phrase, bars_of_phrase = _phrase(bars)
-    opening = counts[np.isclose(bars % 1, 0)]
-    found: list[np.ndarray] = []
-    for first, stop in runs:
-        opens = first + np.flatnonzero(np.isclose(bars[first:stop] % bars_of_phrase, 0))
-        cuts = sorted({first, stop - 1, *opens.tolist()})
-        found += _merged([counts[start : end + 1] for start, end in pairwise(cuts)], per_phrase)
-    meter = _danced_meter(bars)
-    return [
-        replace(
-            slot, meter=meter if np.isclose(opening, slot.counts[0]).any() else 0, halved=halved
-        )
-        for slot in (_formed(found, condition) if found else ())
-    ]
-
-
-def _danced_meter(bars: np.ndarray) -> int:
-    """Three or four counts, as steps are counted; 0 of bars that are neither."""
-    per_bar = round(1 / float(np.median(np.diff(bars))))
-    return 3 if per_bar % 3 == 0 else 4 if per_bar in (2, 4, 8) else 0
-
-
-def _counts(
-    beats: np.ndarray, phase: np.ndarray, seconds: float
-) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Counts and the bar [C] that each falls in, from before 0 to the end, and whether two of them
-    are a beat."""
-    beats = beats_beyond(beats, seconds)
-    period = float(np.median(np.diff(beats)))
-    times = np.arange(len(phase)) / FPS
-    slope = (phase[-1] - phase[0]) / max(times[-1], 1e-6)
-    in_threes = round(1 / max(slope * period, 1e-6)) % 3 == 0
-    shares = (0.5, 1.0) if in_threes else (0.5, 1.0, 2.0)
-    share = min(shares, key=lambda s: abs(np.log(period * s / PACE)))
-    if share == 0.5:
-        beats = np.sort(np.concatenate((beats, (beats[1:] + beats[:-1]) / 2)))
-    bars = np.interp(beats, times, phase)
-    bars += slope * (np.minimum(beats, 0) + np.maximum(beats - times[-1], 0))
-    per_bar = max(1, round(1 / float(np.median(np.diff(bars)))))
-    bars = np.rint(bars * per_bar) / per_bar
-    if share == 2.0:  # every second beat, the downbeats among them
-        first = int(np.flatnonzero(np.isclose(bars % 1, 0))[:1].sum()) % 2
-        beats, bars = beats[first::2], bars[first::2]
-    return beats, bars, share == 0.5
-
-
-def _phrase(bars: np.ndarray) -> tuple[int, int]:
-    """Counts and bars of a phrase: so many bars (1, 2 or 4) as are nearest to eight counts."""
-    per_bar = 1 / float(np.median(np.diff(bars)))
-    number = min((1, 2, 4), key=lambda bars: abs(np.log(per_bar * bars / 8)))
-    return round(per_bar * number), number
-
-
-def _merged(phrases: list[np.ndarray], per_phrase: int) -> list[np.ndarray]:
-    """Phrases of two counts and more, one after the other; those below three join a neighbour, and
-    so does half a phrase at the end."""
-    found: list[np.ndarray] = []
-    for phrase in phrases:
-        both = len(found[-1]) + len(phrase) - 2 if found else 0
-        short = bool(found) and min(len(found[-1]), len(phrase)) < 4
-        if short and both <= per_phrase + 2:
-            found[-1] = np.concatenate((found[-1], phrase[1:]))
-        else:
-            found.append(phrase)
-    if len(found) > 1 and len(found[-1]) - 1 <= per_phrase // 2:  # no stub before the end
-        last = found.pop()
-        found[-1] = np.concatenate((found[-1], last[1:]))
-    return [phrase for phrase in found if len(phrase) > 2]
-
-
-def _formed(phrases: list[np.ndarray], condition: np.ndarray) -> list[Slot]:
-    """Phrases with their loudness, and which earlier one each repeats: a a' b a', and what the
-    song plays again."""
-    heard, loudness = [], []
-    for phrase in phrases:
-        start, stop = int(phrase[0] * FPS), max(int(phrase[-1] * FPS), int(phrase[0] * FPS) + 1)
-        part = condition[:, start:stop]
-        heard.append(part[128:160].mean(1) if part.size else np.zeros(32))
-        loudness.append(float(part[160].mean()) if part.size else 0.0)
-    sound = np.array(heard).reshape(len(phrases), 32)
-    sound = sound - sound.mean(0)
-    sound /= np.linalg.norm(sound, axis=1, keepdims=True).clip(min=1e-9)
-    ranks = np.argsort(np.argsort(loudness)) / max(len(phrases) - 1, 1)
-    slots: list[Slot] = []
-    for index, phrase in enumerate(phrases):
-        place = index % 4
-        same = {1: index - 1, 3: index - 2}.get(place)
-        if place in (0, 2) and index >= 4:
-            earlier = [other for other in range(place, index - 3, 4) if len(phrases[other]) > 3]
-            near = max(earlier, key=lambda other: sound[index] @ sound[other], default=None)
-            if near is not None and sound[index] @ sound[near] > ALIKE:
-                same = near
-        if same is not None and len(phrases[same]) != len(phrase):
-            same = None
-        slots.append(
-            Slot(
-                phrase,
-                float(ranks[index]),
-                same,
-                ("a", "a'", "b", "a'")[place] + (f"{index // 4 + 1}" if index >= 4 else ""),
-            )
-        )
-    return slots
 
 
 # ---------------------------------------------------------------- which figures
@@ -504,11 +347,9 @@ def unshown(sentence: str, kinds: Collection[str]) -> str:
 
 
 def says_dance(sentence: str) -> bool:
-    """Whether a sentence has a word of dance, and does not deny it."""
-    words, text = all_words(), unicodedata.normalize("NFC", sentence).casefold()
-    denied = any(each.search(text) for each in (words.denial, words.lacking, words.refusal))
-    found = [word for word, (about, _) in _words().items() if about == "dance"]
-    return not denied and any(_pattern(word).search(text) for word in found)
+    """Whether a sentence has a word of dance that it does not deny."""
+    text = unicodedata.normalize("NFC", sentence).casefold()
+    return bool(_danced().search(_undanced().sub(" ", text)))
 
 
 def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
@@ -568,6 +409,28 @@ def _words() -> dict[str, tuple[str, str]]:
 
 
 @cache
+def _danced() -> re.Pattern[str]:
+    """Any word of dance, of any language."""
+    found = [word for word, (about, _) in _words().items() if about == "dance"]
+    return re.compile("|".join(_pattern(word).pattern for word in found))
+
+
+@cache
+def _undanced() -> re.Pattern[str]:
+    """A word that denies, up to two others between, and a word of dance; or the other way round."""
+    found, links = [], "|".join(map(re.escape, _dances()["links"]))
+    for table in _dances()["words"].values():
+        dance = "|".join(_pattern(word.casefold()).pattern for word in table["dance"])
+        gap = rf"(?:\s+(?!(?:{links})\b)\w+){{0,2}}\s*" if _is_parted(table["dance"][0]) else ""
+        for key, before in (("not", True), ("not-behind", False)):
+            if words := table.get(key):
+                no = "|".join(_pattern(word.casefold()).pattern for word in words)
+                first, second = (no, dance) if before else (dance, no)
+                found.append(f"(?:{first}){gap}(?:{second})")
+    return re.compile("|".join(found))
+
+
+@cache
 def _manners() -> dict[str, tuple[Manner, tuple[float, float] | None]]:
     """Each manner, and the share of the figures by energy that it takes."""
     found = {}
@@ -592,5 +455,9 @@ def _dances() -> dict[str, Any]:
 def _pattern(word: str) -> re.Pattern[str]:
     """The word where it stands alone, or anywhere in writing that parts no words."""
     escaped = re.escape(word)
-    parted = word.isascii() or unicodedata.name(word[0], "").startswith("LATIN")
-    return re.compile(rf"(?<!\w){escaped}(?!\w)" if parted else escaped)
+    return re.compile(rf"(?<!\w){escaped}(?!\w)" if _is_parted(word) else escaped)
+
+
+def _is_parted(word: str) -> bool:
+    """Whether its writing parts words."""
+    return word.isascii() or unicodedata.name(word[0], "").startswith("LATIN")

@@ -42,9 +42,9 @@ from ..motion.rotations import (
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 from ..motion.staging import carried, resampled, settled, staged
 from .body import PELVIS
-from .choreography import PACE, Choreographer, Slot, Wish, song_slots
+from .choreography import Choreographer, Wish
 from .edit import fill_free
-from .song import SongCondition
+from .song import PACE, Slot, SongCondition
 
 BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
@@ -139,10 +139,8 @@ class FigureDancer:
         self, song: SongCondition, wish: Wish, seed: int, progress: Progress | None = None
     ) -> tuple[Sequence[Slot], Sequence[Figures], Tensor, Tensor] | None:
         """The phrases of a song, a figure for each, and both of `lay`, its beats on the song's."""
-        if song.phase is None or len(song.beats) < 2:
-            return None
-        slots = song_slots(song.beats, song.phase, song.condition.cpu().numpy(), song.waits)
-        slots, frames = self.choreographer.parted(slots, wish), len(song.phase)
+        slots = self.choreographer.parted(song.slots(), wish)
+        frames = song.condition.shape[1]
 
         def told_of(done: int, total: int) -> None:
             if progress is not None:

@@ -17,14 +17,13 @@ from src.shared.pipelines.choreography import (
     LIVELY,
     WARP,
     Choreographer,
-    Slot,
     Wish,
     says_dance,
-    song_slots,
     unshown,
     wish_of,
 )
 from src.shared.pipelines.figure_dance import listed
+from src.shared.pipelines.song import Slot, song_slots
 from tests.shared.memory.tiny_figures import stepping, tiny_figures
 
 
@@ -364,4 +363,41 @@ def test_what_no_figure_shows_is_left_to_the_generator(sentence: str) -> None:
 def test_where_somebody_dances_is_no_dance(sentence: str, dances: bool) -> None:
     kinds = {"indian dance", "modern dance", "breakdance", "charleston"}
     assert (wish_of(sentence, kinds) is not None) is dances
-    assert says_dance("a zombie dances") and not says_dance("she does not dance")
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "a zombie dances",
+        "a robot dances without moving its arms",
+        "a zombie doesn't walk, it dances",
+        "a person never stops dancing",
+        "er rennt nicht und tanzt",
+        "sie hört nicht auf zu tanzen",
+        "un robot danse sans bouger les bras",
+        "ella no para de bailar",
+        "ロボットは跳ばずに踊る",
+        "一个机器人不走路，跳舞",
+    ],
+)
+def test_what_is_said_to_be_danced(sentence: str) -> None:
+    assert says_dance(sentence)
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "she does not dance",
+        "a robot never dances",
+        "he does not want to dance",
+        "a robot stands instead of dancing",
+        "ein Roboter tanzt heute nicht",
+        "un robot ne danse jamais",
+        "una persona no está bailando",
+        "ロボットは踊りません",
+        "不跳舞而是走路",
+        "a zombie walks",
+    ],
+)
+def test_what_is_denied_or_no_dance(sentence: str) -> None:
+    assert not says_dance(sentence)

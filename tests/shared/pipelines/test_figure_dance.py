@@ -19,7 +19,7 @@ from src.shared.motion.features import (
 )
 from src.shared.motion.staging import settled
 from src.shared.pipelines.body import Performer, PerformerSettings
-from src.shared.pipelines.choreography import Choreographer, Wish, song_slots
+from src.shared.pipelines.choreography import Choreographer, Wish
 from src.shared.pipelines.dance import SongPerformer
 from src.shared.pipelines.figure_dance import (
     BLEND,
@@ -30,7 +30,7 @@ from src.shared.pipelines.figure_dance import (
     listed,
     on_beats,
 )
-from src.shared.pipelines.song import SongCondition
+from src.shared.pipelines.song import SongCondition, song_slots
 from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.model.conftest import tiny_generator
 from tests.shared.pipelines.test_choreography import song
