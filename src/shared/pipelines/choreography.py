@@ -34,6 +34,7 @@ CANDIDATES = 400  # figures of a slot, by what they cost alone
 JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 # Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
 REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
+OPENING = 4.0  # times that for the first figure, by which one knows a dance
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
@@ -117,7 +118,7 @@ class Choreographer:
         if 2 * sum(self._fits(slot, wish) for slot in slots) < len(slots):
             return None
         for index, slot in enumerate(slots):
-            found, alone = self._candidates(slot, wish, rng)
+            found, alone = self._candidates(slot, wish, rng, 1.0 if index else OPENING)
             if not len(found):
                 return None
             shown = found.shown.astype(np.float32)
@@ -248,9 +249,9 @@ class Choreographer:
         return len(found) > 0
 
     def _candidates(
-        self, slot: Slot, wish: Wish, rng: np.random.Generator
+        self, slot: Slot, wish: Wish, rng: np.random.Generator, chance: float
     ) -> tuple[Figures, np.ndarray]:
-        """Figures that fit a slot, and what each costs alone [C]."""
+        """Figures that fit a slot, and what each costs alone [C]; the seed's part is so large."""
         counts = len(slot.counts) - 1
         noise = rng.gumbel(size=len(self.figures(counts)))  # as many draws whatever fits
         period = float(slot.counts[-1] - slot.counts[0]) / counts
@@ -265,7 +266,7 @@ class Choreographer:
                 break
         cost = TEMPO * np.log(found.count / period) ** 2 + ENERGY * (rank - slot.loudness) ** 2
         clear = 2 * found.clear_beats if slot.halved else found.clear
-        cost -= CLEAR * clear + NOISE * noise[: len(found)]
+        cost -= CLEAR * clear + chance * NOISE * noise[: len(found)]
         cost += SLIDE * found.slide + BACK * found.back + MADE * (found.meter > 0)
         cost -= THREES * ((found.meter == 3) & (slot.meter == 3))
         kept = np.argsort(cost)[:CANDIDATES]

@@ -20,7 +20,7 @@ export function footShifts(balls, hips, contacts, fps, kept) {
   const planted = stands.map((row) => row.map((stands, t) => stands && runs[t]));
   const walking = stands.map((row) => row.map((stands, t) => stands && !runs[t]));
   plantSpans(moved, hips, walking, fps, kept).forEach((plants, side) => {
-    const more = corrections(moved[side], plants, kept[side], fps);
+    const more = corrections(moved[side], plants, kept[side], fps, [...planted[side]]);
     shifts[side] = shifts[side].map((shift, t) => add(shift, more[t]));
     for (const plant of plants) planted[side].fill(true, plant.start, plant.stop);
   });
@@ -227,7 +227,8 @@ function reached(point, hip, start, stop) {
 
 // ---------------------------------------------------------------- how far
 
-function corrections(ball, plants, keptLegs, fps) {
+/** Between plants a foot is lifted, unless it treads [T] on the floor there, running. */
+function corrections(ball, plants, keptLegs, fps, treads) {
   const frames = ball.length;
   let shift = ball.map(() => [0, 0, 0]);
   const known = [...keptLegs], lift = new Array(frames).fill(0);
@@ -245,6 +246,7 @@ function corrections(ball, plants, keptLegs, fps) {
   keptLegs.forEach((kept, t) => { if (kept) shift[t] = [0, 0, 0]; });
   for (let i = 1; i < plants.length; i++) {
     const [before, after] = [plants[i - 1], plants[i]];
+    if (treads.slice(before.stop, after.start).some(Boolean)) continue;
     const number = after.start - before.stop;
     const height = Math.min(LIFT, SLOPE * norm(sub(after.point, before.point)));
     for (let t = 0; t < number; t++) lift[before.stop + t] = height * Math.sin((Math.PI * (t + 1)) / (number + 1)) ** 2;

@@ -152,7 +152,8 @@ def foot_shifts(
     stands, runs = standing(balls, hips, contacts, fps), running(hips, fps)[:, None]
     planted = stands & runs
     for side, plants in enumerate(plant_spans(balls, hips, stands & ~runs, fps, kept)):
-        shifts[:, side] += corrections(balls[:, side], plants, kept[:, side], fps)
+        treads = planted[:, side].copy()
+        shifts[:, side] += corrections(balls[:, side], plants, kept[:, side], fps, treads)
         for plant in plants:
             planted[plant.start : plant.stop, side] = True
     return shifts, planted
@@ -332,8 +333,15 @@ def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple
 # ---------------------------------------------------------------- how far
 
 
-def corrections(ball: np.ndarray, plants: list[Plant], kept: np.ndarray, fps: float) -> np.ndarray:
-    """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do."""
+def corrections(
+    ball: np.ndarray,
+    plants: list[Plant],
+    kept: np.ndarray,
+    fps: float,
+    treads: np.ndarray | None = None,
+) -> np.ndarray:
+    """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do. Between
+    plants it is lifted, unless it `treads` [T] bool on the floor there, running."""
     shift, known = np.zeros_like(ball), kept.copy()
     lift = np.zeros(len(ball))
     for plant in plants:
@@ -346,6 +354,8 @@ def corrections(ball: np.ndarray, plants: list[Plant], kept: np.ndarray, fps: fl
         known[plant.start : plant.stop] = True
     shift[kept] = 0
     for before, after in pairwise(plants):
+        if treads is not None and treads[before.stop : after.start].any():
+            continue
         rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
         way = np.linalg.norm(after.point - before.point)
         lift[before.stop : after.start] = min(LIFT, SLOPE * way) * np.sin(rise) ** 2

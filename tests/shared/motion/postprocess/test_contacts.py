@@ -12,6 +12,7 @@ from scipy.interpolate import CubicHermiteSpline
 from src.shared.motion.postprocess.contacts import (
     GIVE,
     MAX_REACH,
+    ROLL,
     SWING,
     contact_runs,
     corrections,
@@ -87,6 +88,10 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
         np.testing.assert_allclose(speed, GIVE, atol=1e-6)
     between = slice(left[0].stop, left[1].start)
     assert moved[between, 1].max() > REST_FOOT_HEIGHT + 0.03  # a step is lifted
+    treads = np.zeros(120, dtype=bool)
+    treads[(left[0].stop + left[1].start) // 2] = True
+    shift = corrections(path, left, kept[:, 0], FPS, treads)
+    assert np.abs(shift[between, 1]).max() < ROLL  # unless it runs
 
 
 @pytest.mark.parametrize("stop", [30, 3])
