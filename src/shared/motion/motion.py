@@ -158,6 +158,7 @@ class Danced:
         mirrored: left and right swapped.
         part: a letter for each phrase of a take, in the order that they are first danced; a' is the
             mirror image of a.
+        steps: only its steps are danced, below a body that is made of words.
     """
 
     name: str
@@ -165,6 +166,7 @@ class Danced:
     times: tuple[float, ...]
     mirrored: bool
     part: str
+    steps: bool = False
 
     @property
     def start(self) -> float:
@@ -186,4 +188,5 @@ class Danced:
             "counts": len(self.times) - 1,
             "mirrored": self.mirrored,
             "part": self.part,
+            "steps": self.steps,
         }

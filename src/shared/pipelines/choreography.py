@@ -38,7 +38,7 @@ OPENING = 4.0  # times that for the first figure, by which one knows a dance
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
-# Of both feet sliding all the time, of a metre gone backward, of both in the air at the end.
+# Of both feet sliding all the time, of a metre gone backward, of both in the air at an end.
 SLIDE, BACK, ON_BOTH = 26.0, 0.5, 8.0
 # Cost of steps made by code, which join well and fill any dance; gain of threes in threes.
 MADE, THREES = 5.0, 6.0
@@ -123,6 +123,7 @@ class Choreographer:
                 return None
             shown = found.shown.astype(np.float32)
             if not index:
+                alone = alone + ON_BOTH * (found.entry[:, -2:] == 0).mean(1)
                 middle = found.spread[:, :-1, -1].sum(0) / found.spread[:, -1, -1].sum()
             own = _about(found.spread, middle)
             cost = value[:, None] + alone

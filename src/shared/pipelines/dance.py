@@ -27,6 +27,7 @@ from ..model.clip.pretrained import tower_hash
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
+from ..motion.motion import Danced
 from ..motion.skeleton import REST_PELVIS_HEIGHT
 from ..motion.trajectory import FPS, MotionTrajectory, from_motion, to_root
 from .body import Performance, Performer
@@ -276,15 +277,17 @@ class SongPerformer:
             dance = None if wish is None else self._in_figures(song, wish, prompt, own, told)
             if dance is None:
                 passages = with_waits(self._passages(song, None, prompt, tag, own), song.waits)
+                plan, figures = self._plan(song, passages, own) or (None, ())
                 dance = self.performer.improvise(
                     passages,
                     beats=song.beats if len(song.beats) else None,
                     phase=song.phase,
                     waits=song.waits,
-                    plan=self._plan(song, passages, own),
+                    plan=plan,
                     seed=own,
                     progress=told,
                 )
+                dance = replace(dance, figures=figures)
             made.append(dance)
         ranked = self._ranked(made, song, prompt)
         return replace(ranked, warning="; ".join(self._told) or None)
@@ -320,8 +323,8 @@ class SongPerformer:
 
     def _plan(
         self, song: SongCondition, passages: Sequence[Passage], seed: int
-    ) -> Constraint | None:
-        """Steps of figures, where a passage dances; None where none does or fits."""
+    ) -> tuple[Constraint, tuple[Danced, ...]] | None:
+        """Steps of figures, where a passage dances, and which; None where none does or fits."""
         if self.choreographer is None:
             return None
         said = {each.text for each in passages if says_dance(each.text)}

@@ -9,6 +9,7 @@ Letters: T frames, S slots.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from string import ascii_lowercase
 from typing import Any
 
@@ -109,9 +110,10 @@ class FigureDancer:
 
     def plan(
         self, song: SongCondition, wish: Wish, seed: int, where: Tensor, seen: Tensor
-    ) -> Constraint | None:
+    ) -> tuple[Constraint, tuple[Danced, ...]] | None:
         """Steps of figures on a song of T frames, for a body whose trunk, head and arms are made of
-        words: root rows, pelvis and legs are known. None where no figure fits or falls there.
+        words: root rows, pelvis and legs are known; and those figures. None where no figure fits or
+        falls there.
 
         Args:
             song, wish: see `dance`.
@@ -123,7 +125,7 @@ class FigureDancer:
         found = self._laid(song, wish, seed)
         if found is None:
             return None
-        *_, features, danced = found
+        slots, chosen, features, danced = found
         end = int(torch.nonzero(danced)[-1]) + 1
         if len(danced) - end < LAST:
             danced[end:] = True  # in the pose of the last count
@@ -133,7 +135,12 @@ class FigureDancer:
             return None
         shown = known & seen[:, None, None]
         shown[:, ROOT_ROW] = known[:, ROOT_ROW]
-        return Constraint(features, known, shown=shown)
+        figures = (
+            replace(figure, steps=True)
+            for figure in told(self.choreographer, slots, chosen)
+            if known[int(figure.start * FPS) : int(figure.stop * FPS), ROOT_ROW].any()
+        )
+        return Constraint(features, known, shown=shown), tuple(figures)
 
     def _laid(
         self, song: SongCondition, wish: Wish, seed: int, progress: Progress | None = None

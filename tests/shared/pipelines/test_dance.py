@@ -144,13 +144,15 @@ def test_what_no_figure_shows_is_danced_where_figures_step(starter: TextToMotion
         SongPerformer(performer, choreographer=each).dance(condition(), "a robot dances").ranked[0]
         for each in (choreographer, None)
     )
-    assert not led.figures
+    assert led.figures and all(each.steps for each in led.figures) and not alone.figures
     every = torch.ones(360, dtype=torch.bool)
     dancer = FigureDancer(choreographer, starter)
-    plan = dancer.plan(condition(), Wish(), candidate_seed(0, 3, 0), every, every.logical_not())
+    found = dancer.plan(condition(), Wish(), candidate_seed(0, 3, 0), every, every.logical_not())
     nowhere = every.logical_not()
     assert dancer.plan(condition(), Wish(), 0, nowhere, every) is None
-    assert plan is not None and plan.known[:, ROOT_ROW].float().mean() > 0.8
+    assert found is not None and found[1] == led.figures
+    plan = found[0]
+    assert plan.known[:, ROOT_ROW].float().mean() > 0.8
     knee, wrist = JOINT_INDEX["l_knee"], JOINT_INDEX["l_wrist"]
     assert plan.known[60, knee].all() and not plan.known[:, wrist].any()
     assert plan.shown is not None and not plan.shown[:, :ROOT_ROW].any()

@@ -362,7 +362,7 @@ def stage_frames(motion: Motion, figures: Sequence[Danced]) -> Iterator[Image.Im
                 pen.text(
                     (x, y), str(count % rounds(len(figure.times) - 1) + 1), INK, big, anchor="mm"
                 )
-                named = figure.kind + ", mirrored" * figure.mirrored
+                named = figure.kind + " (steps)" * figure.steps + ", mirrored" * figure.mirrored
                 pen.text((16 * OVERSAMPLE, 42 * OVERSAMPLE), named, INK, small)
         yield picture.resize(STAGE_SIZE, Image.Resampling.BOX)
 

@@ -211,7 +211,7 @@ function drawStrip(context, motion, time, width, height, pixel) {
 function makeFigures(row, motion) {
   row.className = "figures";
   row.setAttribute("aria-label", "Figures");
-  return motion.figures.map(({ kind, mirrored, name, part, start }) => {
+  return motion.figures.map(({ kind, mirrored, name, part, start, steps }) => {
     const make = (tag, parent, text) => {
       const made = parent.appendChild(document.createElement(tag));
       made.textContent = text;
@@ -221,7 +221,7 @@ function makeFigures(row, motion) {
     const button = make("button", item, "");
     button.type = "button";
     if (mirrored) button.title = "left and right swapped";
-    make("b", button, `${kind}${mirrored ? " ⇄" : ""}`);
+    make("b", button, `${kind}${steps ? " (steps)" : ""}${mirrored ? " ⇄" : ""}`);
     const seconds = String(Math.floor(start % 60)).padStart(2, "0");
     const when = `${Math.floor(start / 60)}:${seconds}`;
     make("small", button, `${when} ${part.replace("'", "′")} · ${name}`);
