@@ -34,7 +34,7 @@ CANDIDATES = 400  # figures of a slot, by what they cost alone
 JOIN, TEMPO, ENERGY, CLEAR, STAGE, FRONT = 1.0, 30.0, 1.0, 4.0, 7.0, 0.3
 # Gain of a repetition; cost of an unasked one, of each earlier figure of the same take; the seed's.
 REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
-OPENING = 4.0  # times that for the first figure, by which one knows a dance
+OPENING = 3.0  # times that for the first figure, by which one knows a dance
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
 AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
