@@ -205,12 +205,13 @@ def _levels(parents: tuple[int, ...]) -> list[list[int]]:
 
 def local_to_global(local: Tensor, parents: Sequence[int]) -> Tensor:
     """Local rotations [...,K,3,3] → world rotations [...,K,3,3]."""
-    world: list[Tensor] = [local[..., 0, :, :]] * len(parents)
+    own = local.unbind(-3)  # its gradient is one tensor, that of each index would be as large
+    world: list[Tensor] = [own[0]] * len(parents)
     for level in _levels(tuple(parents))[1:]:
         above = torch.stack([world[parents[j]] for j in level], -3)
-        product = above @ torch.stack([local[..., j, :, :] for j in level], -3)
-        for index, joint in enumerate(level):
-            world[joint] = product[..., index, :, :]
+        product = above @ torch.stack([own[j] for j in level], -3)
+        for joint, turned in zip(level, product.unbind(-3), strict=True):
+            world[joint] = turned
     return torch.stack(world, -3)
 
 
@@ -219,7 +220,8 @@ def _parents_of(world: Tensor, parents: Sequence[int]) -> Tensor:
 
     Here as above joints are stacked: an index would have to be sent to a GPU, which waits for it.
     """
-    return torch.stack([world[..., parent, :, :] for parent in parents[1:]], -3)
+    joints = world.unbind(-3)
+    return torch.stack([joints[parent] for parent in parents[1:]], -3)
 
 
 def global_to_local(world: Tensor, parents: Sequence[int]) -> Tensor:
@@ -242,10 +244,10 @@ def forward_kinematics(
     """
     world = local_to_global(local, parents)
     above = _parents_of(world, parents)
-    bones = (above @ offsets[1:, :, None].to(world)).squeeze(-1)  # [...,K-1,3]
+    bones = (above @ offsets[1:, :, None].to(world)).squeeze(-1).unbind(-2)  # K-1 of [...,3]
     positions: list[Tensor] = [root_position] * len(parents)
     for joint in range(1, len(parents)):
-        positions[joint] = positions[parents[joint]] + bones[..., joint - 1, :]
+        positions[joint] = positions[parents[joint]] + bones[joint - 1]
     return torch.stack(positions, -2), world
 
 

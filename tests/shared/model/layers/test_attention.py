@@ -96,3 +96,17 @@ def test_each_sample_has_its_own_adapter_beside_the_linear_map():
     expected[0] += layer.adapters[1](x[0])
     expected[2] += layer.adapters[0](x[2])
     assert torch.allclose(layer(x, opened), expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_an_adapter_that_all_samples_open_is_learned_as_each_samples_own(number: int):
+    layer = AdaptedLinear(D, 5, ranks=(2, 4))
+    for parameter in layer.parameters():
+        torch.nn.init.normal_(parameter)
+    x, opened = torch.randn(B, T, D), torch.zeros(B, 2)
+    opened[:, number] = 1.0
+    learned = layer(x, opened)  # one product for all
+    with torch.no_grad():
+        sampled = layer(x, opened)  # one a sample
+    assert torch.allclose(learned, sampled, atol=1e-5)
+    assert torch.equal(layer(x, torch.zeros(B, 2)), layer(x))
