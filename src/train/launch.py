@@ -120,7 +120,10 @@ class Stage:
             module = self.module if "." in self.module else f"{__package__}.{self.module}"
             command = resume_command(module, sys.argv[1:])
             trainer = Trainer(settings, lambda c: task(c, network), command=command, resume=resume)
-            trainer.train()
+            try:
+                trainer.train()
+            finally:  # threads of it must not outlive the interpreter
+                trainer.accelerator.end_training()
 
     def part(self, name: str) -> Any:
         """What the stage's module calls so; that is when PyTorch is imported."""
