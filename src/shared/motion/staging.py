@@ -48,12 +48,13 @@ from .skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 FAR = 2.6  # radians from what an arm does on average, beyond which it is left alone
 SETTLE = 0.1  # seconds, standard deviation, over which the pelvis follows bent knees
 FOLDED = 100.0  # degrees of a knee that bends no more
+TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
 ARMS = [JOINT_INDEX[name] for side in ("left-arm", "right-arm") for name in LIMBS[side]]
 
 
 @dataclass(frozen=True)
 class Manner:
-    """What is added to every pose, degrees, and what arms keep of their movement.
+    """What is added to every pose, degrees, and what arms and trunk keep of their movement.
 
     Attributes:
         stoop: that the trunk is bent forward.
@@ -61,12 +62,19 @@ class Manner:
         knees: that legs which stand straight are bent, each hip by this, each knee by twice that;
             the more one is bent already, the less.
         arms: share of their movement around what they do on average; 1 = all of it.
+        trunk: share of how spine, neck and head bend and turn; 1 = all of it.
+        elbows: that both are held bent; 0 = as they are.
+        stops: share of each count in which the body holds still, half of it on either side; see
+            `stopping`.
     """
 
     stoop: float = 0.0
     bow: float = 0.0
     knees: float = 0.0
     arms: float = 1.0
+    trunk: float = 1.0
+    elbows: float = 0.0
+    stops: float = 0.0
 
     def __and__(self, other: "Manner") -> "Manner":
         """Both at once: who is old and tired is bent as far as one who is either."""
@@ -79,6 +87,9 @@ class Manner:
             both(self.bow, other.bow),
             both(self.knees, other.knees),
             1 + both(self.arms - 1, other.arms - 1),
+            1 + both(self.trunk - 1, other.trunk - 1),
+            max(self.elbows, other.elbows),
+            max(self.stops, other.stops),
         )
 
 
@@ -99,6 +110,13 @@ def carried(features: Tensor, manner: Manner, fps: float) -> Tensor:
         near = ((FAR - apart) / (FAR / 2)).clamp(0, 1)  # there are two ways to the far side
         share = 1 + (manner.arms - 1) * near
         rotations[:, ARMS] = quaternion_to_matrix(quaternion_slerp(mean, own, share))
+    if manner.trunk != 1.0:
+        own = quaternion_log(matrix_to_quaternion(rotations[:, TRUNK]))
+        rotations[:, TRUNK] = quaternion_to_matrix(quaternion_exp(manner.trunk * own))
+    if manner.elbows:
+        for side, sign in (("l", -1.0), ("r", 1.0)):
+            bent = torch.tensor(sign * np.radians(manner.elbows)).double()
+            rotations[:, JOINT_INDEX[f"{side}_elbow"]] = axis_angle_to_matrix(1, bent)
     for names, degrees in (
         (("spine1", "spine2", "spine3"), manner.stoop / 3),
         (("neck", "head"), manner.bow / 2),
@@ -228,6 +246,26 @@ def settled(features: Tensor, end: float, seconds: float, fps: float = 30.0) -> 
     shown, rate = time + seconds * (x**2 - x**3), 1 + 2 * x - 3 * x**2
     if flies:
         shown, rate = np.minimum(shown, end), np.where(time < end, rate, 0.0)
+    return resampled(features, np.clip(shown * fps, 0, len(features) - 1.0), rate)
+
+
+def stopping(features: Tensor, counts: np.ndarray, share: float, fps: float = 30.0) -> Tensor:
+    """Features [T,23,6] that hold still around every count, and get from one to the next in what is
+    left of the time, by the minimum-jerk profile (Flash and Hogan 1985).
+
+    Args:
+        features: of a dance.
+        counts: seconds [C], ascending, C ≥ 2; before and after them nothing changes.
+        share: of a count that is held.
+    """
+    time = np.arange(len(features)) / fps
+    index = np.clip(np.searchsorted(counts, time, side="right") - 1, 0, len(counts) - 2)
+    length = np.diff(counts)[index]
+    x = np.clip(((time - counts[index]) / length - share / 2) / (1 - share), 0, 1)
+    shown = counts[index] + length * x**3 * (10 - 15 * x + 6 * x**2)
+    rate = 30 * x**2 * (1 - x) ** 2 / (1 - share)
+    inside = (time >= counts[0]) & (time < counts[-1])
+    shown, rate = np.where(inside, shown, time), np.where(inside, rate, 1.0)
     return resampled(features, np.clip(shown * fps, 0, len(features) - 1.0), rate)
 
 

@@ -41,7 +41,7 @@ from ..motion.rotations import (
     rotation_6d_to_matrix,
 )
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
-from ..motion.staging import carried, resampled, settled, staged
+from ..motion.staging import carried, resampled, settled, staged, stopping
 from .body import PELVIS
 from .choreography import Choreographer, Wish
 from .edit import fill_free
@@ -103,6 +103,9 @@ class FigureDancer:
         slots, chosen, features, danced = found
         last = slots[-1].counts
         features = settled(features, last[-1], last[-1] - last[-1 - ENDING])
+        if wish.manner.stops:
+            counts = np.unique(np.concatenate([slot.counts for slot in slots]).round(6))
+            features = stopping(features, counts, wish.manner.stops)
         features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
         features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)

@@ -9,10 +9,16 @@ from src.shared.motion.features import (
     FORWARD,
     HEIGHT,
     LATERAL,
+    ROOT_ROW,
     YAW_RATE,
     decode_features,
     encode_features,
     integrate_root,
+)
+from src.shared.motion.rotations import (
+    axis_angle_to_matrix,
+    matrix_to_rotation_6d,
+    rotation_6d_to_matrix,
 )
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.staging import (
@@ -26,6 +32,7 @@ from src.shared.motion.staging import (
     circling,
     staged,
     steered,
+    stopping,
 )
 from tests.shared.memory.tiny_figures import tiny_figures
 
@@ -57,6 +64,40 @@ def test_arms_keep_a_share_of_their_movement(share: float) -> None:
     plain, own = places(PLAIN)[:, WRIST], places(Manner(arms=share))[:, WRIST]
     moved = [np.ptp(each - each.mean(0), axis=0).max() for each in (own, plain)]
     assert moved[0] / moved[1] == pytest.approx(share, abs=0.3)
+
+
+def test_a_robot_has_a_stiff_trunk_and_bent_elbows() -> None:
+    features = encode_features(tiny_figures().takes[0].motion)
+    robot = carried(features, Manner(trunk=0.25, elbows=85), 30.0)
+
+    def degrees(rows: torch.Tensor, joint: str) -> np.ndarray:
+        turns = rotation_6d_to_matrix(rows[:, JOINT_INDEX[joint]])
+        cosine = (turns.diagonal(dim1=-2, dim2=-1).sum(-1) - 1) / 2
+        return np.degrees(np.arccos(cosine.clamp(-1, 1).numpy()))
+
+    assert degrees(robot, "l_elbow") == pytest.approx(85, abs=0.1)
+    assert degrees(robot, "r_elbow") == pytest.approx(85, abs=0.1)
+    bent = torch.tensor([0.4])
+    features[:, JOINT_INDEX["spine2"]] = matrix_to_rotation_6d(axis_angle_to_matrix(0, bent))
+    own = degrees(carried(features, Manner(trunk=0.25), 30.0), "spine2")
+    assert own == pytest.approx(np.degrees(0.1), abs=0.1)
+
+
+def test_who_stops_holds_still_around_each_count() -> None:
+    turning = torch.zeros(120, 23, 6)
+    turning[..., 0] = turning[..., 4] = 1.0
+    angle = torch.arange(120.0) * 0.05  # of one shoulder, steadily
+    turning[:, 16, 0], turning[:, 16, 1] = angle.cos(), angle.sin()
+    turning[:, 16, 3], turning[:, 16, 4] = -angle.sin(), angle.cos()
+    turning[:, ROOT_ROW, YAW_RATE] = 1.0
+    stopped = stopping(turning, np.arange(1.0, 3.1, 0.5), 0.4)
+    shown = np.unwrap(torch.atan2(stopped[:, 16, 1], stopped[:, 16, 0]).numpy())
+    for count in (45, 60, 75):
+        assert np.ptp(shown[count - 2 : count + 3]) < 1e-3
+        assert shown[count] == pytest.approx(float(angle[count]), abs=1e-3)
+        assert float(stopped[count, ROOT_ROW, YAW_RATE]) == 0.0
+    assert shown[:30] == pytest.approx(angle[:30].numpy(), abs=1e-4)  # before the first
+    assert float(stopped[30:90, ROOT_ROW, YAW_RATE].sum()) == pytest.approx(60.0, rel=0.03)
 
 
 def test_an_arm_that_goes_all_round_does_not_jump() -> None:

@@ -306,7 +306,7 @@ def test_kinds_of_a_memory_of_ones_own(sentence: str, kind: str) -> None:
 @pytest.mark.parametrize(
     ("sentence", "left"),
     [("a person dances hip hop", "hip hop"), ("une femme danse le tango", "tango"),
-     ("two people dance", "two"), ("人がタンゴを踊る", "タンゴ"), ("a robot dances", "robot"),
+     ("two people dance", "two"), ("人がタンゴを踊る", "タンゴ"), ("a knight dances", "knight"),
      ("un uomo balla la salsa", "uomo balla"), ("a person dances", ""), ("a person walks", ""),
      ("a person walks, then dances", "")],
 )  # fmt: skip
@@ -322,8 +322,8 @@ def test_what_else_is_said_is_told_without_its_comma() -> None:
 
 
 def test_a_kind_is_danced_whatever_else_is_said() -> None:
-    wish = wish_of("a robot dances salsa, then freezes", KINDS)
-    assert wish == Wish(frozenset({"salsa"}), unread="robot , then freezes")
+    wish = wish_of("a knight dances salsa, then freezes", KINDS)
+    assert wish == Wish(frozenset({"salsa"}), unread="knight , then freezes")
 
 
 @pytest.mark.parametrize(
@@ -342,8 +342,8 @@ def test_who_dances_carries_it(sentence: str) -> None:
 
 @pytest.mark.parametrize(
     "sentence",
-    ["a robot dances", "an old man walks", "a person dances tango", "", "person",
-     "a person dances ballet", "ein Roboter tanzt", "a man breaking into a run",
+    ["a knight dances", "an old man walks", "a person dances tango", "", "person",
+     "a person dances ballet", "ein Ritter tanzt", "a man breaking into a run",
      "salsa is what she walks to"],
 )  # fmt: skip
 def test_what_no_figure_shows_is_left_to_the_generator(sentence: str) -> None:

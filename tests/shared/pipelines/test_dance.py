@@ -141,7 +141,7 @@ def test_what_no_figure_shows_is_danced_where_figures_step(starter: TextToMotion
     choreographer = Choreographer(tiny_figures())
     performer = Performer(starter, PerformerSettings(steps=1, foot_lock=False))
     led, alone = (
-        SongPerformer(performer, choreographer=each).dance(condition(), "a robot dances").ranked[0]
+        SongPerformer(performer, choreographer=each).dance(condition(), "a knight dances").ranked[0]
         for each in (choreographer, None)
     )
     assert led.figures and all(each.steps for each in led.figures) and not alone.figures
@@ -181,9 +181,9 @@ def test_what_the_figures_do_not_show_is_said(
     dancers = SongPerformer(Performer(starter), choreographer=choreographer)
     assert dancers._wish("a person breakdances") is None
     assert "the memory holds no figure of breakdance" in caplog.text
-    wish = dancers._wish("a robot dances salsa")
+    wish = dancers._wish("a knight dances salsa")
     assert (
-        wish is not None and wish.kinds == {"salsa"} and "they do not show 'robot'" in caplog.text
+        wish is not None and wish.kinds == {"salsa"} and "they do not show 'knight'" in caplog.text
     )
     assert dancers._wish("a person dances hip hop") is None
     assert "no figure shows 'hip hop'" in caplog.text and "polka, salsa" in caplog.text
