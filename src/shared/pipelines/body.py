@@ -365,8 +365,9 @@ class Performer:
             features[:, ROOT_ROW] = steered(circling(root, fps), fps)
         else:
             end = int(torch.nonzero(plan.known[:, ROOT_ROW, 0])[-1]) / fps
-            features = settled(plan.keep(features), end, COMES_TO_REST, fps)
+            features = plan.keep(features)
             features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], fps)
+            features = settled(features, end, COMES_TO_REST, fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True
         )

@@ -37,9 +37,9 @@ REPEAT, AGAIN, SAME_TAKE, NOISE = 16.0, 0.8, 2.0, 1.0
 OPENING = 3.0  # times that for the first figure, by which one knows a dance
 NEW, MANY = 0.9, 16  # gain of a typical pose that was not yet seen, and of how many at most
 WIDE = 5.0  # gain of a dimension of the poses
-AT_END = 6.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
+AT_END = 20.0  # of FRONT more, for the last figure: nobody ends with the back to those who watch
 # Of both feet sliding all the time, of a metre gone backward, of both in the air at an end.
-SLIDE, BACK, ON_BOTH = 26.0, 0.5, 8.0
+SLIDE, BACK, ON_BOTH = 26.0, 0.5, 14.0
 # Cost of steps made by code, which join well and fill any dance; gain of threes in threes.
 MADE, THREES = 5.0, 6.0
 CHANGE = 1.5  # cost of another kind than the phrase before has, where none is asked for

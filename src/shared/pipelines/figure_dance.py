@@ -51,7 +51,7 @@ BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
 REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
-MOST_ACCENT = 2.5  # times that, on beats so much longer than a count: as hard to brake
+MOST_ACCENT = 1.8  # times that, on beats so much longer than a count: as hard to brake
 ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
@@ -102,12 +102,14 @@ class FigureDancer:
             return None
         slots, chosen, features, danced = found
         last = slots[-1].counts
+        features = carried(features, wish.manner, FPS)
+        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
+        features = _at_rest(features, danced)
         features = settled(features, last[-1], last[-1] - last[-1 - ENDING])
         if wish.manner.stops:
             counts = np.unique(np.concatenate([slot.counts for slot in slots]).round(6))
             features = stopping(features, counts, wish.manner.stops)
-        features = self._standing(carried(features, wish.manner, FPS), danced, sampling)
-        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
+        features = self._standing(features, danced, sampling)
         motion = self.generator.post_processor(features, None, text=text, foot_lock=foot_lock)
         return motion, told(self.choreographer, slots, chosen)
 
@@ -129,9 +131,11 @@ class FigureDancer:
         if found is None:
             return None
         slots, chosen, features, danced = found
-        end = int(torch.nonzero(danced)[-1]) + 1
-        if len(danced) - end < LAST:
-            danced[end:] = True  # in the pose of the last count
+        begin, end = (int(torch.nonzero(danced)[each]) for each in (0, -1))
+        if begin < LAST:
+            danced[:begin] = True  # in the pose of the first count
+        if len(danced) - end - 1 < LAST:
+            danced[end + 1 :] = True  # in that of the last one
         known = torch.zeros(features.shape, dtype=torch.bool)
         known[:, STEPPING] = (danced & where)[:, None, None]
         if not known.any():
@@ -371,7 +375,12 @@ def _held(features: Tensor, danced: Tensor) -> Tensor:
     left = (right - 1).clamp_min(0)
     nearer = (frames - known[left]).abs() <= (known[right] - frames).abs()
     source = torch.where(nearer, known[left], known[right])
-    result = features[source].clone()
+    return _at_rest(features[source], danced)
+
+
+def _at_rest(features: Tensor, danced: Tensor) -> Tensor:
+    """Features that go nowhere in frames that no figure has."""
+    result = features.clone()
     rest = torch.nonzero(~danced)[:, 0]
     for channel in (FORWARD, LATERAL, YAW_RATE):
         result[rest, ROOT_ROW, channel] = 0.0
