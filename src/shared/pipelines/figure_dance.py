@@ -49,7 +49,7 @@ from .song import PACE, Slot, SongCondition
 
 BLEND = 0.3  # seconds either side of a seam
 STAND = "a person stands still"  # where nobody dances
-REACH, HASTE = 0.2, 0.45  # seconds by which a beat of the body is moved; of the pace, for that
+REACH, HASTE = 0.2, 0.35  # seconds by which a beat of the body is moved; of the pace, for that
 ACCENT, MARKED = 0.2, 0.1  # of the pace; seconds from a beat of the body to one of the song
 MOST_ACCENT = 1.8  # times that, on beats so much longer than a count: as hard to brake
 ENDING = 2  # counts in which the last figure comes to rest
