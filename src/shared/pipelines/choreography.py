@@ -12,6 +12,7 @@ Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts
 
 import re
 import unicodedata
+import zlib
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -103,10 +104,12 @@ class Choreographer:
         Args:
             slots: S ≥ 1.
             wish: of the sentence.
-            seed: with the song and the wish it decides everything.
+            seed: with the song and the wish it decides everything; who carries the same figures in
+                another manner has others.
             progress: told the slots done of S.
         """
-        rng = np.random.default_rng(seed)
+        who = [] if wish.manner == PLAIN else [zlib.crc32(repr(wish.manner).encode())]
+        rng = np.random.default_rng([seed, *who])
         options: list[Figures] = []
         back: list[np.ndarray] = []
         value = np.zeros(1)
@@ -356,7 +359,9 @@ def says_dance(sentence: str) -> bool:
 
 def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
     """A wish, whether the sentence asks for a dance, and what else it says."""
-    rest = unicodedata.normalize("NFC", sentence).casefold()
+    text = unicodedata.normalize("NFC", sentence).casefold()
+    denied = " ".join(match.group() for match in _undanced().finditer(text))
+    rest = _undanced().sub(" ", text)
     said, staged, named, wish, wanted = False, False, False, Wish(), set()
     names = {_bare(name): ("kinds", name) for name in kinds}
     names |= {name.casefold(): ("kinds", name) for name in kinds}
@@ -383,7 +388,7 @@ def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
     asks = said or bool(
         wanted and (named or not staged) and not _WORD.search(all_words().then.sub(" ", left))
     )
-    return replace(wish, kinds=frozenset(wanted)), asks, left
+    return replace(wish, kinds=frozenset(wanted)), asks, f"{left} {denied}".strip()
 
 
 def _bare(kind: str) -> str:
@@ -419,10 +424,12 @@ def _danced() -> re.Pattern[str]:
 
 @cache
 def _undanced() -> re.Pattern[str]:
-    """A word that denies, up to two others between, and a word of dance; or the other way round."""
+    """A word that denies, up to two others between, and one of dance or of a kind of it; or the
+    other way round."""
     found, links = [], "|".join(map(re.escape, _dances()["links"]))
     for table in _dances()["words"].values():
-        dance = "|".join(_pattern(word.casefold()).pattern for word in table["dance"])
+        kinds = (word for words in table["kinds"].values() for word in words)
+        dance = "|".join(_pattern(word.casefold()).pattern for word in (*table["dance"], *kinds))
         gap = rf"(?:\s+(?!(?:{links})\b)\w+){{0,2}}\s*" if _is_parted(table["dance"][0]) else ""
         for key, before in (("not", True), ("not-behind", False)):
             if words := table.get(key):

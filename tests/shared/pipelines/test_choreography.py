@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from src.shared.memory.figures import FigureMemory, Figures, Take
 from src.shared.memory.steps import STEPS, made_take
+from src.shared.motion.staging import PLAIN, Manner
 from src.shared.pipelines import choreography
 from src.shared.pipelines.choreography import (
     CALM,
@@ -382,6 +383,26 @@ def test_where_somebody_dances_is_no_dance(sentence: str, dances: bool) -> None:
 )
 def test_what_is_said_to_be_danced(sentence: str) -> None:
     assert says_dance(sentence)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "kinds"),
+    [("don't dance salsa", None), ("no baila salsa", None),
+     ("a person dances, but not salsa", None),
+     ("she does not dance breakdance, she dances salsa", {"salsa"})],
+)  # fmt: skip
+def test_a_kind_that_is_denied_is_not_danced(sentence: str, kinds: set[str] | None) -> None:
+    wish = wish_of(sentence, KINDS)
+    assert (wish and set(wish.kinds)) == kinds
+
+
+def test_who_dances_otherwise_dances_other_figures() -> None:
+    takes = [made_take(each, 0.5, number) for number, each in enumerate(STEPS) if each.meter == 4]
+    choreographer, slots = Choreographer(FigureMemory(takes)), song_slots(*song(seconds=40))
+    manners = PLAIN, Manner(stoop=30)
+    chosen = [choreographer.choose(slots, Wish(manner=manner), 0) for manner in manners]
+    numbers = [[int(each.number[0]) for each in some or ()] for some in chosen]
+    assert numbers[0] != numbers[1]
 
 
 @pytest.mark.parametrize(
