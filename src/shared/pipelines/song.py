@@ -3,6 +3,7 @@
 Letters: T frames, M beats.
 """
 
+import logging
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -36,6 +37,7 @@ from .song_sampler import Progress, SongSampler, SongSampling
 if TYPE_CHECKING:
     from .song_memory import SongMemory
 
+log = logging.getLogger(__name__)
 STYLE_MODEL = "starter"  # reads a style that is a sentence
 ModelT = TypeVar("ModelT", bound=Runtime)
 
@@ -342,8 +344,11 @@ def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
 
 
 def song_condition(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
-    """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
+    """Condition [167,T] and bars [T] of the first `seconds`; a song that is shorter is told. No bars
+    where no beat was found."""
     frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
+    if seconds is not None and seconds > song.seconds + 0.5:
+        log.warning("the song ends after %.0f s: so does what is made for it", song.seconds)
     rows, phase = song.features.stack()[:, :frames], song.phase[:frames]
     if song.beats.tempo <= 0:
         return torch.from_numpy(np.pad(rows, ((0, 4), (0, 0)))), None

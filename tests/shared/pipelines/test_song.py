@@ -10,7 +10,7 @@ from src.shared.audio.beats import Beats
 from src.shared.audio.features import AudioFeatures
 from src.shared.audio.song import Song
 from src.shared.data.phrases.layout import phase_rows
-from src.shared.pipelines.song import AudioCondition
+from src.shared.pipelines.song import AudioCondition, SongCondition
 
 SHAPES = {"mel": (128,), "chroma": (12,), "mfcc": (20,), "rms": (), "spectral_centroid": (),
           "onset_strength": ()}  # fmt: skip
@@ -40,7 +40,7 @@ def test_another_shape_is_no_condition() -> None:
             AudioCondition.of(torch.zeros(shape))
 
 
-def test_a_song_becomes_one() -> None:
+def test_a_song_becomes_one(caplog: pytest.LogCaptureFixture) -> None:
     frames = 180
     silence = {name: np.zeros((*rows, frames), np.float32) for name, rows in SHAPES.items()}
     features = AudioFeatures(**silence)
@@ -52,3 +52,6 @@ def test_a_song_becomes_one() -> None:
     assert time is not None
     np.testing.assert_allclose(time[1], times, atol=1e-3)
     np.testing.assert_allclose(np.diff(time[0]), np.diff(song.phase), atol=1e-5)
+    assert SongCondition.of(song, 5.0).condition.shape[1] == 150 and not caplog.text
+    assert SongCondition.of(song, 60.0).condition.shape[1] == frames
+    assert "the song ends after 6 s" in caplog.text
