@@ -33,6 +33,7 @@ from ..motion.features import (
     world_joints,
 )
 from ..motion.motion import Danced, Motion
+from ..motion.postprocess.whole import hanging_arms
 from ..motion.rotations import (
     matrix_to_quaternion,
     matrix_to_rotation_6d,
@@ -56,6 +57,7 @@ ENDING = 2  # counts in which the last figure comes to rest
 CHOSEN = 0.9  # of the work, about, is to choose figures
 LEGS = (*LIMBS["left-leg"], *LIMBS["right-leg"])
 STEPPING = [PELVIS, *(JOINT_INDEX[joint] for joint in LEGS), ROOT_ROW]
+DROP = 30  # frames in which arms come down, and go up again
 LONG, LAST = 10, 60  # frames; for less the pose is held, and at the end of all
 
 
@@ -169,13 +171,19 @@ class FigureDancer:
         return slots, chosen, accented(features, song.beats), danced
 
     def _standing(self, features: Tensor, danced: Tensor, sampling: Sampling) -> Tensor:
-        """Features [T,23,6] in which the text branch fills in what no figure has."""
+        """Features [T,23,6] in which the text branch fills in what no figure has; where that is
+        long, arms hang."""
         edges = np.flatnonzero(np.diff((~danced).numpy().astype(int), prepend=0, append=0))
         for start, stop in edges.reshape(-1, 2).tolist():
             if stop - start < (LAST if stop == len(features) else LONG):
                 continue
             known = torch.ones(features.shape, dtype=torch.bool)
             known[start:stop] = False
+            first, last = start + DROP * (start > 0), stop - DROP * (stop < len(features))
+            if last > first:
+                features = features.clone()
+                for joint, row in hanging_arms().items():
+                    features[first:last, joint], known[first:last, joint] = row, True
             features = fill_free(self.generator, STAND, Constraint(features, known), sampling)
         return features
 

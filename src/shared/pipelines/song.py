@@ -344,8 +344,8 @@ def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
 
 
 def song_condition(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
-    """Condition [167,T] and bars [T] of the first `seconds`; a song that is shorter is told. No bars
-    where no beat was found."""
+    """Condition [167,T] and bars [T] of the first `seconds`; where the song is shorter, that is
+    told. No bars where no beat was found."""
     frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
     if seconds is not None and seconds > song.seconds + 0.5:
         log.warning("the song ends after %.0f s: so does what is made for it", song.seconds)

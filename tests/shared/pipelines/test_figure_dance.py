@@ -17,6 +17,7 @@ from src.shared.motion.features import (
     decode_features,
     encode_features,
 )
+from src.shared.motion.postprocess.whole import hanging_arms
 from src.shared.motion.staging import settled
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish
@@ -131,6 +132,17 @@ def test_a_dance_comes_to_rest_in_its_last_pose() -> None:
     assert np.abs(np.diff(shown)).max() < 0.05 * 1.4
     assert shown[89] == pytest.approx(float(angle[90]), abs=0.02)
     assert abs(shown[89] - shown[87]) < 0.03 and rested[89, ROOT_ROW, YAW_RATE] < 0.15
+
+
+def test_arms_hang_where_nobody_dances_for_long(choreographer: Choreographer) -> None:
+    features = choreographer.memory.features[:240].clone()
+    danced = torch.ones(240, dtype=torch.bool)
+    danced[60:180] = False
+    dancer = FigureDancer(choreographer, tiny_generator())
+    found = dancer._standing(features, danced, Sampling(steps=2))
+    assert torch.allclose(found[:60], features[:60], atol=1e-4)
+    for joint, row in hanging_arms().items():
+        assert torch.allclose(found[90:150, joint], row.expand(60, 6), atol=1e-4)
 
 
 def test_it_says_what_it_danced(choreographer: Choreographer) -> None:

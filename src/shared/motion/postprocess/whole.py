@@ -25,6 +25,7 @@ from ..rotations import (
     quaternion_log,
     quaternion_multiply,
     quaternion_slerp,
+    quaternion_to_matrix,
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
@@ -164,6 +165,19 @@ REST_FADE = 0.5  # seconds in which an arm comes down
 # Rotation vectors of a left arm that hangs beside the body, out of the T-pose; mirrored in y and z.
 _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (0.0, -0.38, 0.0),
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
+
+
+def hanging_arms() -> dict[int, Tensor]:
+    """Joints of both arms that hang, and their 6D rows [6]."""
+    turns = {
+        JOINT_INDEX[f"{letter}_{joint}"]: torch.as_tensor(np.multiply(turn, (1.0, side, side)))
+        for letter, side in (("l", 1.0), ("r", -1.0))
+        for joint, turn in _HANGING.items()
+    }
+    return {
+        joint: matrix_to_rotation_6d(quaternion_to_matrix(quaternion_exp(turn))).float()
+        for joint, turn in turns.items()
+    }
 
 
 def rest_to_rest(
