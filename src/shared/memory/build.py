@@ -511,6 +511,9 @@ def build_figures(
         except UserError as error:
             left_out[str(row.file)] = str(error)
         progress(done, len(rows))
+    if len(left_out) == len(rows):
+        first = "; ".join(f"{name}: {reason}" for name, reason in [*left_out.items()][:3])
+        raise UserError(f"none of {len(rows)} files can be danced; {first}")
     return FigureMemory(takes), left_out
 
 

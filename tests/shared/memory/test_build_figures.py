@@ -51,6 +51,9 @@ def test_without_a_table_every_file_is_a_take(folder: Path) -> None:
     with pytest.raises(UserError, match="no motion files"):
         (folder / "empty").mkdir()
         every_file(folder / "empty")
+    (folder / "long.npz").write_bytes(b"no motion")
+    with pytest.raises(UserError, match=r"none of 2 files can be danced; .*long.npz: .*loop.npz: "):
+        build_figures(sorted(every_file(folder), key=lambda row: row.file.name, reverse=True))
 
 
 def test_addresses_will_do(folder: Path, tmp_path: Path) -> None:
