@@ -511,7 +511,7 @@ def build_figures(
         except UserError as error:
             left_out[str(row.file)] = str(error)
         progress(done, len(rows))
-    if len(left_out) == len(rows):
+    if left_out and not any(take.is_dance for take in takes):
         first = "; ".join(f"{name}: {reason}" for name, reason in [*left_out.items()][:3])
         raise UserError(f"none of {len(rows)} files can be danced; {first}")
     return FigureMemory(takes), left_out

@@ -348,20 +348,20 @@ def wish_of(sentence: str, kinds: Collection[str], others: Collection[str] = ())
 def unshown(sentence: str, kinds: Collection[str]) -> str:
     """What no figure shows of a sentence that asks for a dance alone; "" of any other."""
     wish, asks, left = _read(sentence, kinds)
-    return left if (asks or wish.kinds) and not all_words().then.search(left) else ""
+    asks |= bool(wish.kinds) or says_dance(sentence)
+    return left if asks and not all_words().then.search(left) else ""
 
 
 def says_dance(sentence: str) -> bool:
     """Whether a sentence has a word of dance that it does not deny."""
-    text = unicodedata.normalize("NFC", sentence).casefold()
-    return bool(_danced().search(_undanced().sub(" ", text)))
+    return bool(_danced().search(_undanced().sub(" ", _plain(sentence))))
 
 
 def _read(sentence: str, kinds: Collection[str]) -> tuple[Wish, bool, str]:
     """A wish, whether the sentence asks for a dance, and what else it says."""
-    text = unicodedata.normalize("NFC", sentence).casefold()
-    denied = " ".join(match.group() for match in _undanced().finditer(text))
-    rest = _undanced().sub(" ", text)
+    text, undanced = _plain(sentence), _undanced(frozenset(map(str.casefold, kinds)))
+    denied = " ".join(match.group() for match in undanced.finditer(text))
+    rest = undanced.sub(" ", text)
     said, staged, named, wish, wanted = False, False, False, Wish(), set()
     names = {_bare(name): ("kinds", name) for name in kinds}
     names |= {name.casefold(): ("kinds", name) for name in kinds}
@@ -417,26 +417,35 @@ def _words() -> dict[str, tuple[str, str]]:
 
 @cache
 def _danced() -> re.Pattern[str]:
-    """Any word of dance, of any language."""
+    """Any word of dance, of any language, and names of dances of which there are no figures."""
     found = [word for word, (about, _) in _words().items() if about == "dance"]
-    return re.compile("|".join(_pattern(word).pattern for word in found))
+    return re.compile("|".join(_pattern(w).pattern for w in (*found, *_dances()["others"])))
 
 
 @cache
-def _undanced() -> re.Pattern[str]:
-    """A word that denies, up to two others between, and one of dance or of a kind of it; or the
-    other way round."""
+def _undanced(kinds: frozenset[str] = frozenset()) -> re.Pattern[str]:
+    """What is denied: a word that denies and one of dance, or of a kind of it, either way round,
+    with a kind behind or before them. Two words may stand between; none before a finite verb, which
+    is somebody else's ("who does not smile dances")."""
     found, links = [], "|".join(map(re.escape, _dances()["links"]))
     for table in _dances()["words"].values():
-        kinds = (word for words in table["kinds"].values() for word in words)
-        dance = "|".join(_pattern(word.casefold()).pattern for word in (*table["dance"], *kinds))
-        gap = rf"(?:\s+(?!(?:{links})\b)\w+){{0,2}}\s*" if _is_parted(table["dance"][0]) else ""
-        for key, before in (("not", True), ("not-behind", False)):
-            if words := table.get(key):
-                no = "|".join(_pattern(word.casefold()).pattern for word in words)
-                first, second = (no, dance) if before else (dance, no)
-                found.append(f"(?:{first}){gap}(?:{second})")
+        own = [*kinds, *(word for words in table["kinds"].values() for word in words)]
+        dance, named, verbs, no, behind = (
+            "|".join(_pattern(word.casefold()).pattern for word in words) or "(?!)"
+            for words in (table["dance"], own, table.get("verbs", table["dance"]),
+                          table.get("not", ()), table.get("not-behind", ()))
+        )  # fmt: skip
+        parted = _is_parted(table["dance"][0])
+        gap = rf"(?:\s+(?!(?:{links})\b)[^\W\d]+){{0,2}}" if parted else r"[^\W\d]{0,2}"
+        to, kind = rf"{gap}\s*", rf"(?:{gap}\s*(?:{named}))?"
+        found += [f"(?:{no})(?:{to}(?:{verbs})|\\s*(?:{dance}|{named})){kind}",
+                  f"(?:(?:{named}){to})?(?:{dance}|{named}){to}(?:{behind}){kind}"]  # fmt: skip
     return re.compile("|".join(found))
+
+
+def _plain(sentence: str) -> str:
+    """In small letters, with plain apostrophes."""
+    return unicodedata.normalize("NFC", sentence).casefold().replace("\u2019", "'")
 
 
 @cache

@@ -77,7 +77,9 @@ class SongCondition:
 
     @classmethod
     def of(cls, song: Song, seconds: float | None = None) -> "SongCondition":
-        """The first `seconds` of a song; None = all of it."""
+        """The first `seconds` of a song; None = all of it. A song that is shorter is told."""
+        if seconds is not None and seconds > song.seconds + 0.5:
+            log.warning("the song ends after %.0f s: so does what is made for it", song.seconds)
         condition, phase = song_condition(song, seconds)
         beats = np.asarray(song.beats.beat_times) if song.beats.tempo > 0 else np.zeros(0)
         return cls(condition, phase, beats, int(song.sha256 or "0", 16))
@@ -344,11 +346,8 @@ def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
 
 
 def song_condition(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
-    """Condition [167,T] and bars [T] of the first `seconds`; where the song is shorter, that is
-    told. No bars where no beat was found."""
+    """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
     frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
-    if seconds is not None and seconds > song.seconds + 0.5:
-        log.warning("the song ends after %.0f s: so does what is made for it", song.seconds)
     rows, phase = song.features.stack()[:, :frames], song.phase[:frames]
     if song.beats.tempo <= 0:
         return torch.from_numpy(np.pad(rows, ((0, 4), (0, 0)))), None

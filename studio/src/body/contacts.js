@@ -153,12 +153,24 @@ class Planner {
 function runsOf(balls, stands, fps, kept) {
   const runs = [];
   for (const side of [0, 1])
-    for (const [start, stop] of contactRuns(stands[side], round(MAX_GAP_SECONDS * fps))) {
+    for (const [start, stop] of bridgedRuns(stands[side], balls[side], fps)) {
       const whole = kept[side].slice(start, stop).some(Boolean);
       const pieces = whole ? [[start, stop]] : stepsOf(balls[side].slice(start, stop), start, fps, 0.5 * side);
       for (const [first, last] of pieces) runs.push([first, last, side]);
     }
   return runs.sort((a, b) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2]);
+}
+
+/** Runs; a short gap is bridged, unless the ball got far in it: a quick step. */
+function bridgedRuns(stands, ball, fps) {
+  const runs = [];
+  for (const [start, stop] of contactRuns(stands, 0)) {
+    const last = runs[runs.length - 1];
+    const way = last ? Math.hypot(ball[start][0] - ball[last[1] - 1][0], ball[start][2] - ball[last[1] - 1][2]) : Infinity;
+    if (way <= MAX_DRAG && start - last[1] <= round(MAX_GAP_SECONDS * fps)) last[1] = stop;
+    else runs.push([start, stop]);
+  }
+  return runs;
 }
 
 function stepsOf(path, start, fps, phase) {

@@ -1,5 +1,6 @@
 """Figures on the counts of a song: in time, without jumps, standing where nobody dances."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -18,7 +19,7 @@ from src.shared.motion.features import (
     encode_features,
 )
 from src.shared.motion.postprocess.whole import hanging_arms
-from src.shared.motion.staging import settled
+from src.shared.motion.staging import Manner, settled
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish
 from src.shared.pipelines.dance import SongPerformer
@@ -105,6 +106,9 @@ def test_beats_that_nothing_marks_slow_the_body_down() -> None:
     assert speed[[30, 45, 60, 75, 90]] == pytest.approx(0.8, abs=0.03)
     assert speed[[37, 52, 67, 82]] == pytest.approx(1.2, abs=0.03)
     assert shown[[30, 60, 90]] == pytest.approx(angle[[30, 60, 90]].numpy(), abs=1e-3)
+    slow = accented(still, np.arange(0.5, 4.0, 1.0))  # as hard, for as long a beat
+    shown = np.unwrap(torch.atan2(slow[:, 16, 1], slow[:, 16, 0]).numpy())
+    assert np.gradient(shown)[[45, 75]] / 0.05 == pytest.approx(0.64, abs=0.03)
 
 
 def test_a_dance_comes_to_rest_in_its_last_pose() -> None:
@@ -143,6 +147,20 @@ def test_arms_hang_where_nobody_dances_for_long(choreographer: Choreographer) ->
     assert torch.allclose(found[:60], features[:60], atol=1e-4)
     for joint, row in hanging_arms().items():
         assert torch.allclose(found[90:150, joint], row.expand(60, 6), atol=1e-4)
+
+
+def test_a_robot_stops_on_counts(choreographer: Choreographer) -> None:
+    dancer, wish = FigureDancer(choreographer, tiny_generator()), Wish(frozenset({"polka"}))
+    speeds = []
+    for manner in (Manner(), Manner(stops=0.6)):
+        found = dancer.dance(condition(), replace(wish, manner=manner), sampling=Sampling(steps=2),
+                             foot_lock=False)  # fmt: skip
+        assert found is not None
+        motion, figures = found
+        speed = np.linalg.norm(np.diff(motion.positions(), axis=0), axis=-1).mean(1) * 30
+        on = [round(time * 30) for figure in figures[:-1] for time in figure.times]
+        speeds.append(np.mean([speed[at - 1 : at + 1].mean() for at in on if 1 < at < len(speed)]))
+    assert speeds[1] < 0.4 * speeds[0]
 
 
 def test_it_says_what_it_danced(choreographer: Choreographer) -> None:

@@ -150,8 +150,9 @@ class AdaptedLinear(nn.Linear):
             return y
         # The weights of each sample's own adapter: as fast with twenty adapters as with one.
         own, share = opened.argmax(-1), opened.amax(-1)[:, None, None]
-        # Learning one, a fifth of a step less: one product for all samples.
-        if torch.is_grad_enabled() and x.device.type == "cpu" and bool((own == own[0]).all()):
+        # Learning one, a sixth of a step less: one product for all samples.
+        eager = torch.is_grad_enabled() and not torch.compiler.is_compiling()
+        if eager and x.device.type == "cpu" and len(own) and bool((own == own[0]).all()):
             first, second = self.adapters[int(own[0])].children()
             return y + torch.as_tensor(second(first(x) * share))
         down, up = (self.table(layer).index_select(0, own) for layer in (0, 1))  # B R D, B D' R

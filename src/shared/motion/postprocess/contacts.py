@@ -264,12 +264,25 @@ def _standing_spans(
     """First and past-the-last frame and side of each time that a foot stands, by their start."""
     runs = []
     for side in (0, 1):
-        for start, stop in contact_runs(stands[:, side], round(MAX_GAP_SECONDS * fps)):
+        for start, stop in _bridged_runs(stands[:, side], balls[:, side], fps):
             path = balls[start:stop, side]
             whole = bool(kept[start:stop, side].any())
             pieces = [(start, stop)] if whole else _steps(path, start, fps, 0.5 * side)
             runs += [(first, last, side) for first, last in pieces]
     return sorted(runs)
+
+
+def _bridged_runs(stands: np.ndarray, ball: np.ndarray, fps: float) -> list[tuple[int, int]]:
+    """Runs of bool [T]; a short gap is bridged, but where the ball [T,3] got far in it."""
+    runs: list[tuple[int, int]] = []
+    for start, stop in contact_runs(stands, 0):
+        last = runs[-1][1] if runs else -1
+        near = last > 0 and np.linalg.norm((ball[start] - ball[last - 1])[[0, 2]]) <= MAX_DRAG
+        if near and start - last <= round(MAX_GAP_SECONDS * fps):
+            runs[-1] = (runs[-1][0], stop)
+        else:
+            runs.append((start, stop))
+    return runs
 
 
 def _border(fixed: np.ndarray) -> int:

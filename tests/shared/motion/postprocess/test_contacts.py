@@ -94,6 +94,20 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
     assert np.abs(shift[between, 1]).max() < ROLL  # unless it runs
 
 
+def test_a_quick_step_is_no_pause_of_one_stand() -> None:
+    """A foot that is off the floor for two frames, in which it gets half a metre away."""
+    path = on_floor(60)
+    path[32:, 2] += 0.5
+    balls, kept = np.stack((path, path), 1), np.zeros((60, 2), dtype=bool)
+    stands = np.ones((60, 2), dtype=bool)
+    stands[30:32, 0] = False
+    left = plant_spans(balls, hips_over(balls), stands, FPS, kept)[0]
+    assert [round(float(plant.point[2]), 2) for plant in left] == [0.0, 0.5]
+    path[32:, 2] -= 0.4
+    balls[:, 0] = path
+    assert len(plant_spans(balls, hips_over(balls), stands, FPS, kept)[0]) == 1
+
+
 @pytest.mark.parametrize("stop", [30, 3])
 def test_a_foot_has_time_to_get_to_its_next_plant(stop: int) -> None:
     """Three frames after it stood it stands half a metre away: it leaves sooner, or lands later."""
