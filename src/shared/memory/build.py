@@ -513,7 +513,7 @@ def build_figures(
         progress(done, len(rows))
     if left_out and not any(take.is_dance for take in takes):
         first = "; ".join(f"{name}: {reason}" for name, reason in [*left_out.items()][:3])
-        raise UserError(f"none of {len(rows)} files can be danced; {first}")
+        raise UserError(f"none of {len(rows)} files can be danced; give others: {first}")
     return FigureMemory(takes), left_out
 
 
