@@ -1,13 +1,12 @@
 """A choreographer: from the beats, bars and loudness of a song to a sequence of figures.
 
-The song's beats are counted at a pace that dancers count, in phrases of about eight counts. Dynamic
-programming takes a figure for each: what it costs to join two (pose, velocity, turning, feet), how
-far its tempo has to be warped, how its energy is against the loudness, whether it leads off the
-stage or away from the front, and whether it repeats what the form asks for: a a' b a', a repetition
-best a mirror image, and what the song plays again is danced again. Noise of the seed makes one
-choice of many good ones.
+For each phrase of a song, about eight counts (`song.py`), dynamic programming takes a figure: what
+it costs to join two (pose, velocity, turning, feet), how far its tempo has to be warped, how its
+energy is against the loudness, whether it leads off the stage or away from the front, and whether
+it repeats what the form asks for: a a' b a', a repetition best a mirror image, and what the song
+plays again is danced again. Noise of the seed makes one choice of many good ones.
 
-Letters: T frames, M beats, S slots, N figures, C candidates of a slot, n counts.
+Letters: S slots, N figures, C candidates of a slot, n counts.
 """
 
 import re

@@ -1,6 +1,7 @@
-"""A song in, trajectories out: what the network is told of it (TECH 12.1), and sampling (TECH 8.2).
+"""A song in, trajectories out: what the network is told of it (TECH 12.1), and sampling (TECH 8.2);
+and the phrases of a song, which are danced.
 
-Letters: T frames, M beats.
+Letters: T frames, M beats, C counts of a song, n of a phrase.
 """
 
 import logging

@@ -20,7 +20,7 @@ export function footShifts(balls, hips, contacts, fps, kept) {
   const planted = stands.map((row) => row.map((stands, t) => stands && runs[t]));
   const walking = stands.map((row) => row.map((stands, t) => stands && !runs[t]));
   plantSpans(moved, hips, walking, fps, kept).forEach((plants, side) => {
-    const more = corrections(moved[side], plants, kept[side], fps, [...planted[side]]);
+    const more = corrections(moved[side], plants, kept[side], planted[side], fps);
     shifts[side] = shifts[side].map((shift, t) => add(shift, more[t]));
     for (const plant of plants) planted[side].fill(true, plant.start, plant.stop);
   });
@@ -240,7 +240,7 @@ function reached(point, hip, start, stop) {
 // ---------------------------------------------------------------- how far
 
 /** Between plants a foot is lifted, unless it treads [T] on the floor there, running. */
-function corrections(ball, plants, keptLegs, fps, treads) {
+function corrections(ball, plants, keptLegs, treads, fps) {
   const frames = ball.length;
   let shift = ball.map(() => [0, 0, 0]);
   const known = [...keptLegs], lift = new Array(frames).fill(0);

@@ -154,7 +154,8 @@ class AdaptedLinear(nn.Linear):
         eager = torch.is_grad_enabled() and not torch.compiler.is_compiling()
         if eager and x.device.type == "cpu" and len(own) and bool((own == own[0]).all()):
             first, second = self.adapters[int(own[0])].children()
-            return y + torch.as_tensor(second(first(x) * share))
+            learned: Tensor = second(first(x) * share)
+            return y + learned
         down, up = (self.table(layer).index_select(0, own) for layer in (0, 1))  # B R D, B D' R
         return y + x @ down.mT * share @ up.mT
 

@@ -152,8 +152,8 @@ def foot_shifts(
     stands, runs = standing(balls, hips, contacts, fps), running(hips, fps)[:, None]
     planted = stands & runs
     for side, plants in enumerate(plant_spans(balls, hips, stands & ~runs, fps, kept)):
-        treads = planted[:, side].copy()
-        shifts[:, side] += corrections(balls[:, side], plants, kept[:, side], fps, treads)
+        treads = planted[:, side]  # running
+        shifts[:, side] += corrections(balls[:, side], plants, kept[:, side], treads, fps)
         for plant in plants:
             planted[plant.start : plant.stop, side] = True
     return shifts, planted
@@ -347,11 +347,7 @@ def _reached(point: np.ndarray, hip: np.ndarray, start: int, stop: int) -> tuple
 
 
 def corrections(
-    ball: np.ndarray,
-    plants: list[Plant],
-    kept: np.ndarray,
-    fps: float,
-    treads: np.ndarray | None = None,
+    ball: np.ndarray, plants: list[Plant], kept: np.ndarray, treads: np.ndarray, fps: float
 ) -> np.ndarray:
     """Where the ball of a foot [T,3] has to move, [T,3] in metres; zero = nothing to do. Between
     plants it is lifted, unless it `treads` [T] bool on the floor there, running."""
@@ -367,7 +363,7 @@ def corrections(
         known[plant.start : plant.stop] = True
     shift[kept] = 0
     for before, after in pairwise(plants):
-        if treads is not None and treads[before.stop : after.start].any():
+        if treads[before.stop : after.start].any():
             continue
         rise = np.linspace(0, np.pi, after.start - before.stop + 2)[1:-1]
         way = np.linalg.norm(after.point - before.point)

@@ -167,12 +167,17 @@ _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
 
 
+def _hanging(letter: str) -> dict[int, np.ndarray]:
+    """Joints of the left or right arm, l or r, and the rotation vectors [3] with which it hangs."""
+    mirror = (1.0, 1.0, 1.0) if letter == "l" else (1.0, -1.0, -1.0)
+    return {JOINT_INDEX[f"{letter}_{joint}"]: np.multiply(turn, mirror)
+            for joint, turn in _HANGING.items()}  # fmt: skip
+
+
 def hanging_arms() -> dict[int, Tensor]:
     """Joints of both arms that hang, and their 6D rows [6]."""
     turns = {
-        JOINT_INDEX[f"{letter}_{joint}"]: torch.as_tensor(np.multiply(turn, (1.0, side, side)))
-        for letter, side in (("l", 1.0), ("r", -1.0))
-        for joint, turn in _HANGING.items()
+        joint: torch.as_tensor(turn) for side in "lr" for joint, turn in _hanging(side).items()
     }
     return {
         joint: matrix_to_rotation_6d(quaternion_to_matrix(quaternion_exp(turn))).float()
@@ -205,16 +210,12 @@ def rest_to_rest(
     left = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
     weights = left**3 * (10 - 15 * left + 6 * left**2)  # [frames], the minimum-jerk profile
     raised = [
-        (
-            row + way * np.arange(frames),
-            JOINT_INDEX[f"{letter}_{joint}"],
-            np.multiply(turn, (1.0, side, side)),
-        )
+        (row + way * np.arange(frames), joint, turn)
         for end in ends
-        for letter, side in (("l", 1.0), ("r", -1.0))
+        for letter in "lr"
         if any(heights[row, JOINT_INDEX[f"{letter}_wrist"]] >= heights[row, 0] for row, _ in end)
         for row, way in end
-        for joint, turn in _HANGING.items()
+        for joint, turn in _hanging(letter).items()
     ]
     if raised:
         at, joints, turns = map(np.stack, zip(*raised, strict=True))

@@ -80,7 +80,8 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
             assert reach.max() <= MAX_REACH
     assert planted.any(1).all()  # one foot is always down
     assert not planted.all()
-    shift = corrections(path, left, kept[:, 0], FPS)
+    treads = np.zeros(120, dtype=bool)
+    shift = corrections(path, left, kept[:, 0], treads, FPS)
     moved = path + shift
     for plant in left:
         ground = moved[plant.start : plant.stop, [0, 2]]
@@ -88,9 +89,8 @@ def test_a_dragged_foot_takes_steps_in_turn_with_the_other() -> None:
         np.testing.assert_allclose(speed, GIVE, atol=1e-6)
     between = slice(left[0].stop, left[1].start)
     assert moved[between, 1].max() > REST_FOOT_HEIGHT + 0.03  # a step is lifted
-    treads = np.zeros(120, dtype=bool)
     treads[(left[0].stop + left[1].start) // 2] = True
-    shift = corrections(path, left, kept[:, 0], FPS, treads)
+    shift = corrections(path, left, kept[:, 0], treads, FPS)
     assert np.abs(shift[between, 1]).max() < ROLL  # unless it runs
 
 
