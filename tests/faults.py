@@ -31,6 +31,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from multiprocessing import get_context
 from pathlib import Path
 
 from src.cli import tools
@@ -61,7 +62,10 @@ def subjects(folder: Path, workers: int) -> dict[str, Subject]:
     SharedSpace.from_pretrained = lambda name: LinearSpace()  # type: ignore[assignment, method-assign, misc]
     data, clip = folder / "data", folder / "clip"
     preparation.prepare([SyntheticSource(120)], data, workers=1)
-    text.train_clip(text.clip_config(data, clip))
+    tower = get_context("fork").Process(target=text.train_clip, args=(text.clip_config(data, clip),))
+    tower.start()  # apart: whoever has computed should not be forked, and this process will be
+    tower.join()
+    assert tower.exitcode == 0, f"the text tower ended with {tower.exitcode}"
     circles = audio.write_circles(folder / "circles")
     dancers = write_dancers(folder / "dancers", 60)
 
@@ -159,7 +163,9 @@ class Trial:
         self.steps = max(steps) - time.time() + self.seconds if steps else self.seconds
         files = [path for path in reference.rglob("*") if path.is_file()]
         self.size = sum(path.stat().st_size for path in files)
-        self.last = max(files, key=lambda path: path.stat().st_mtime_ns).relative_to(reference)
+        written = {path.relative_to(reference): path.stat().st_mtime_ns for path in files}
+        # Several, where the clock of the file system is coarse.
+        self.last = [name for name, when in written.items() if when == max(written.values())]
 
     def run(self, out: Path, *codes: int) -> int:
         """Run the command to its end; its code is 0, or one of those given."""
@@ -187,7 +193,7 @@ class Trial:
         if code != 128 + signal.SIGKILL and os.access(out, os.W_OK):  # it can tidy up
             left = [path.name for path in out.rglob("*") if is_unfinished(path)]
             assert not left, f"half-written: {left}"
-        if self.wanted and (code == 0 or (out / self.last).exists()):  # which says: all is there
+        if self.wanted and (code == 0 or all((out / name).exists() for name in self.last)):
             found = contents(out)
             names = {*self.wanted} | (set() if code else {*found})
             differ = sorted(name for name in names if found.get(name) != self.wanted.get(name))
