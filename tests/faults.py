@@ -62,7 +62,9 @@ def subjects(folder: Path, workers: int) -> dict[str, Subject]:
     SharedSpace.from_pretrained = lambda name: LinearSpace()  # type: ignore[assignment, method-assign, misc]
     data, clip = folder / "data", folder / "clip"
     preparation.prepare([SyntheticSource(120)], data, workers=1)
-    tower = get_context("fork").Process(target=text.train_clip, args=(text.clip_config(data, clip),))
+    tower = get_context("fork").Process(
+        target=text.train_clip, args=(text.clip_config(data, clip),)
+    )
     tower.start()  # apart: whoever has computed should not be forked, and this process will be
     tower.join()
     assert tower.exitcode == 0, f"the text tower ended with {tower.exitcode}"

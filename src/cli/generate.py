@@ -88,6 +88,7 @@ def produce(request: Request) -> dict[str, Any]:
         if others := [flag for flag in request.given() if flag != "--path"]:
             raise UsageError(f"{others[0]} does not go with --audio; leave one out")
         refuse_with("--audio", prompts=request.prompts)
+        check_figures(request)
         check_sound(song)
         result = (song_path if request.path_alone else dance)(request, song)
         if result["tempo"] == 0:
@@ -227,9 +228,10 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     drawn = request.path
     if drawn is not None and request.follow_path:
         raise UsageError("--path does not go with --follow-path; leave one out")
+    if drawn is not None:
+        refuse_with("a drawn path, which figures do not keep to", memory=request.memory)
     if not request.follow_path:
         refuse_with("a dance that follows no path (--follow-path)", style=request.style)
-        check_figures(request)
     elif not request.figures:
         raise UsageError(
             "--no-figures does not go with --follow-path, which has none; leave it out"

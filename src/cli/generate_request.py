@@ -369,11 +369,18 @@ def check_runtime(request: Request) -> None:
 
 
 def check_figures(request: Request) -> None:
-    """Refuse a memory that holds no figures to dance."""
+    """Refuse a memory that holds no figures to dance, and figures for a path, which are none."""
+    folder = request.memory_folder
+    if folder is None:
+        return
     from ..shared.memory.figures import is_figure_memory
 
-    folder = request.memory_folder
-    if folder is not None and not is_figure_memory(folder):
+    if request.pathed and is_figure_memory(folder):
+        raise UsageError(
+            f"--memory {folder} holds figures, which no path hears: give --body or --prompt without"
+            " --follow-path, or name a memory of phrases (`memory build` without --figures)"
+        )
+    if not request.pathed and not is_figure_memory(folder):
         raise UsageError(
             f"--memory {folder} holds no figures; make some with `memory build --figures`,"
             " or give --follow-path for a memory of phrases"

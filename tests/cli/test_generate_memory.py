@@ -13,6 +13,7 @@ from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_trajectory_npz
 from src.shared.memory.index import MemoryIndex
 from tests.shared.evaluation.tiny_pairs import tiny_model
+from tests.shared.memory.tiny_figures import tiny_figures
 from tests.shared.pipelines.tiny_recall import remember, save_memory, save_space
 
 runner = CliRunner()
@@ -92,6 +93,19 @@ def test_refusals(
     result = generate(folder, "--out", tmp_path, flag, folder / name, *rest, model=model)
     assert result.exit_code in (1, 2) and message in result.stderr
     assert not list(tmp_path.iterdir())
+
+
+def test_figures_are_for_dances_that_follow_no_path(folder: Path, tmp_path: Path) -> None:
+    tiny_figures().save(tmp_path / "figures")
+    out, memory = ("--out", tmp_path / "out"), ("--memory", tmp_path / "figures")
+    for path in ((), ("--body", "--follow-path")):
+        result = generate(folder, *out, *memory, *path)
+        assert result.exit_code == 2 and "which no path hears" in result.stderr
+    drawn = generate(folder, *out, *memory, "--prompt", "dance", "--path", "circle")
+    assert drawn.exit_code == 2 and "--memory does not go with a drawn path" in drawn.stderr
+    phrases = generate(folder, *out, "--memory", folder / "memory", "--body")
+    assert phrases.exit_code == 2 and "holds no figures" in phrases.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_prompt_has_no_memory() -> None:

@@ -15,7 +15,7 @@ Letters: T frames.
 """
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,10 +26,12 @@ from .features import (
     HEIGHT,
     LATERAL,
     LEFT_CONTACT,
+    RIGHT_CONTACT,
     ROOT_ROW,
     YAW_RATE,
     heading_joints,
     integrate_root,
+    to_world,
 )
 from .filters import smoothed
 from .motion import Motion
@@ -42,6 +44,7 @@ from .rotations import (
     quaternion_slerp,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
+    turn_about_y,
 )
 from .skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 
@@ -49,6 +52,7 @@ FAR = 2.6  # radians from what an arm does on average, beyond which it is left a
 SETTLE = 0.1  # seconds, standard deviation, over which the pelvis follows bent knees
 FOLDED = 100.0  # degrees of a knee that bends no more
 TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
+FEET = [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]
 ARMS = [JOINT_INDEX[name] for side in ("left-arm", "right-arm") for name in LIMBS[side]]
 
 
@@ -213,6 +217,54 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
         z += forward * math.cos(heading) - left * math.sin(heading)
         heading += row[YAW_RATE] / fps
     return torch.tensor(values, dtype=root.dtype)
+
+
+SEAM, STEP, SLOPE = 12, 10, 4  # frames from a seam: the root is led, a foot steps; and the edges
+APART, STOOD = 0.06, 0.3  # metres that feet move from each other; share of a step that one stands
+GIVES = 1.2  # m/s at most by which the root gives way
+FIRM = 1.5  # frames, standard deviation, over which a foot takes a body over
+
+
+def stepped(features: Tensor, seams: Sequence[int], fps: float) -> Tensor:
+    """Features [T,23,6] in which a foot stands through each seam, and the body goes where it leads.
+
+    Two poses that fade into each other stand in two pairs of places, and all feet would slide from
+    one pair to the other. The foot that stands longer stays, the other steps, unless both keep
+    their distance; and the root gives way by what the standing foot would slide.
+
+    Args:
+        features: raw, of a dance.
+        seams: frames at which one figure has become another.
+        fps: frames a second.
+    """
+    if not len(seams):
+        return features
+    result, last = features.clone(), len(features) - 1
+    rows = features[:, ROOT_ROW].double()
+    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS].double())
+    feet = heading_joints(rotations, rows[:, HEIGHT])[:, FEET]  # T 2 3
+    between = (feet[:, 0] - feet[:, 1])[:, [0, 2]]
+    share = np.zeros(last)
+    for seam in seams:
+        span = slice(max(seam - STEP, 0), seam + STEP + 1)
+        ends = between[[max(seam - STEP, 0), min(seam + STEP, last)]]
+        stood = features[span, ROOT_ROW, LEFT_CONTACT:].sum(0)
+        if float((ends[1] - ends[0]).norm()) > APART and stood.max() > STOOD * 2 * STEP:
+            longer = int(stood.argmax())
+            result[span, ROOT_ROW, LEFT_CONTACT + longer] = 1.0
+            result[span, ROOT_ROW, RIGHT_CONTACT - longer] = 0.0
+        x = np.clip((SEAM + 1 - np.abs(np.arange(last) - seam)) / SLOPE, 0, 1)
+        share = np.maximum(share, x * x * (3 - 2 * x))
+    carries = smoothed(result[:last, ROOT_ROW, LEFT_CONTACT:].double().numpy(), FIRM)  # T-1 2
+    carries *= (share / np.maximum(carries.sum(1), 1.0))[:, None]
+    heading = integrate_root(rows, fps)[1]
+    moved = to_world(feet, rows, fps).diff(dim=0) * fps
+    slides = turn_about_y(moved, -heading[:-1, None].expand(-1, 2))
+    led = (torch.from_numpy(carries)[..., None] * slides).sum(1)[:, [0, 2]]  # T-1 2
+    led *= GIVES / led.norm(dim=1, keepdim=True).clamp_min(GIVES)
+    result[:last, ROOT_ROW, FORWARD] -= led[:, 1].float()
+    result[:last, ROOT_ROW, LATERAL] -= led[:, 0].float()
+    return result
 
 
 def resampled(features: Tensor, frame: np.ndarray, rate: np.ndarray) -> Tensor:

@@ -270,7 +270,7 @@ class SongPerformer:
         """
         frames, made = song.condition.shape[1], []
         self._told = []
-        wish = self._wish(prompt)
+        wish = self._wish(prompt, tag)
         for number in range(num_samples):
             own = candidate_seed(seed, song.seed, number)
             told = _from(progress, number * frames, num_samples * frames)
@@ -298,13 +298,18 @@ class SongPerformer:
             log.warning("%s", line)
             self._told.append(line)
 
-    def _wish(self, prompt: str | None) -> Wish | None:
-        """What is asked of recorded figures; None where they do not show it. Says what they do
-        not show of a sentence that names a kind of them."""
+    def _wish(self, prompt: str | None, tag: str | None) -> Wish | None:
+        """What is asked of recorded figures, by a tag too; None where they do not show it. Says
+        what they do not show of a sentence that names a kind of them."""
         if self.choreographer is None or prompt is None:
             return None if self.choreographer is None else Wish()
         here = self.choreographer.kinds
         wish = wish_of(prompt, here, named_kinds())
+        if tag is not None and wish is not None and tag not in DANCED[:1]:
+            if (kind := tag.replace("-", " ")) in here:
+                wish = replace(wish, kinds=wish.kinds | {kind})
+            else:
+                self._tell(f"figures do not hear the tag {tag!r}, and the model does: --no-figures")
         there = f"figures that there are: {', '.join(sorted(here))}"
         if wish is None and (other := unshown(prompt, here)):
             self._tell(f"no figure shows {other!r}: the model makes it; {there}")

@@ -1,15 +1,16 @@
 """Figures laid on the counts of a song: a body that dances what was recorded.
 
 Each figure is warped so that its counts fall on the song's; neighbours fade into each other while
-both are moving. Where nobody dances the text branch fills in a body that stands. Then the root is
-pulled softly to the middle of the stage and the feet are held. Seams filled by the text branch were
-measured and are rougher, and feet slide there (docs/experiments.md).
+both are moving, one foot standing, the other stepping. Where nobody dances the text branch fills in
+a body that stands. Then the root is pulled softly to the middle of the stage and the feet are held.
+Seams filled by the text branch were measured and are rougher (docs/experiments.md).
 
 Letters: T frames, S slots.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 from string import ascii_lowercase
 from typing import Any
 
@@ -42,7 +43,7 @@ from ..motion.rotations import (
     rotation_6d_to_matrix,
 )
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
-from ..motion.staging import carried, resampled, settled, staged, stopping
+from ..motion.staging import carried, resampled, settled, staged, stepped, stopping
 from .body import PELVIS
 from .choreography import Choreographer, Wish
 from .edit import fill_free
@@ -166,6 +167,8 @@ class FigureDancer:
         if chosen is None:
             return None
         features, danced = lay(self.choreographer.memory, slots, chosen, frames)
+        joins = [later.counts[0] for slot, later in pairwise(slots) if _join(slot, later)]
+        features = stepped(features, [round(float(seam) * FPS) for seam in joins], FPS)
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
         return slots, chosen, accented(features, song.beats), danced
@@ -270,8 +273,8 @@ def lay(
     for index, (slot, figure) in enumerate(zip(slots, chosen, strict=True)):
         start, stop = float(slot.counts[0]), float(slot.counts[-1])
         joined = [
-            0 <= other < len(slots) and abs(slots[other].counts[edge] - at) < 1e-6
-            for other, edge, at in ((index - 1, -1, start), (index + 1, 0, stop))
+            index > 0 and _join(slots[index - 1], slot),
+            index + 1 < len(slots) and _join(slot, slots[index + 1]),
         ]
         weight = torch.ones(frames, dtype=torch.float64)
         for seam, is_joined, sign in ((start, joined[0], 1.0), (stop, joined[1], -1.0)):
@@ -301,6 +304,10 @@ def lay(
     rotations = quaternion_to_matrix(turns)
     features = torch.cat((matrix_to_rotation_6d(rotations), root[:, None]), 1)
     return _held(features, danced), danced
+
+
+def _join(slot: Slot, later: Slot) -> bool:
+    return abs(float(slot.counts[-1] - later.counts[0])) < 1e-6
 
 
 def blended(first: Tensor, second: Tensor, share: Tensor) -> Tensor:

@@ -9,11 +9,13 @@ from src.shared.motion.features import (
     FORWARD,
     HEIGHT,
     LATERAL,
+    LEFT_CONTACT,
     ROOT_ROW,
     YAW_RATE,
     decode_features,
     encode_features,
     integrate_root,
+    world_joints,
 )
 from src.shared.motion.rotations import (
     axis_angle_to_matrix,
@@ -26,12 +28,15 @@ from src.shared.motion.staging import (
     PLAIN,
     PULL,
     ROOM,
+    SEAM,
+    STEP,
     TURN,
     Manner,
     carried,
     circling,
     staged,
     steered,
+    stepped,
     stopping,
 )
 from tests.shared.memory.tiny_figures import tiny_figures
@@ -174,3 +179,54 @@ def test_who_walks_off_walks_round_and_a_sway_stays() -> None:
     sway = root()
     sway[:, LATERAL] = torch.from_numpy(np.sin(np.arange(900) / 30 * 2 * np.pi)).float()
     assert float((circling(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02
+
+
+def straddling(frames: int = 90, seam: int = 45, left: float = 0.35) -> torch.Tensor:
+    """Features of a body that stands on both feet, and within ten frames of a seam has the left one
+    in another place, as a fade has it."""
+    features = encode_features(tiny_figures().takes[0].motion)[:1].repeat(frames, 1, 1)
+    features[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] = 0.0
+    features[:, ROOT_ROW, LEFT_CONTACT:] = 1.0
+    share = torch.clamp((torch.arange(frames) - seam) / 20 + 0.5, 0, 1).double()
+    hip = JOINT_INDEX["l_hip"]
+    turned = axis_angle_to_matrix(0, -left * share) @ rotation_6d_to_matrix(
+        features[:, hip].double()
+    )
+    features[:, hip] = matrix_to_rotation_6d(turned).float()
+    return features
+
+
+def test_one_foot_stands_through_a_seam_and_the_other_steps() -> None:
+    feet = [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]
+    features = straddling()
+    features[:, ROOT_ROW, FORWARD] = 0.3  # both slide
+    came = stepped(features, [45], 30.0)
+    contacts = came[45 - STEP : 46 + STEP, ROOT_ROW, LEFT_CONTACT:]
+    assert sorted(contacts.mean(0).tolist()) == [0.0, 1.0]
+    stands = int(contacts.mean(0).argmax())
+    slides, held = (
+        world_joints(each, 30.0)[40:51, feet[stands], ::2].diff(dim=0).norm(dim=-1).mean() * 30
+        for each in (features, came)
+    )
+    assert slides > 0.25 and held < 0.01
+    outside = [*range(45 - SEAM - 1), *range(46 + SEAM, 90)]
+    assert torch.equal(came[outside], features[outside])
+    ways = [FORWARD, LATERAL, LEFT_CONTACT, LEFT_CONTACT + 1]
+    others = [row for row in range(6) if row not in ways]
+    assert torch.equal(came[:, ROOT_ROW, others], features[:, ROOT_ROW, others])
+    assert torch.equal(came[:, :ROOT_ROW], features[:, :ROOT_ROW])
+
+
+def test_feet_that_keep_their_distance_need_no_step_and_a_leap_none_either() -> None:
+    still = straddling(left=0.0)
+    assert torch.equal(stepped(still, [45], 30.0), still)
+    assert stepped(still, [], 30.0) is still
+    flies = straddling()
+    flies[:, ROOT_ROW, FORWARD], flies[:, ROOT_ROW, LEFT_CONTACT:] = 1.0, 0.0
+    assert torch.equal(stepped(flies, [45], 30.0), flies)
+
+
+@pytest.mark.parametrize("seam", [0, 3, 88, 89])
+def test_a_seam_at_the_edge_of_a_dance(seam: int) -> None:
+    came = stepped(straddling(seam=seam), [seam], 30.0)
+    assert came.shape == (90, 23, 6) and bool(torch.isfinite(came).all())

@@ -179,12 +179,20 @@ def test_what_the_figures_do_not_show_is_said(
 ) -> None:
     choreographer = Choreographer(tiny_figures())
     dancers = SongPerformer(Performer(starter), choreographer=choreographer)
-    assert dancers._wish("a person breakdances") is None
+    assert dancers._wish("a person breakdances", None) is None
     assert "the memory holds no figure of breakdance" in caplog.text
-    wish = dancers._wish("a knight dances salsa")
+    wish = dancers._wish("a knight dances salsa", None)
     assert (
         wish is not None and wish.kinds == {"salsa"} and "they do not show 'knight'" in caplog.text
     )
-    assert dancers._wish("a person dances hip hop") is None
+    assert dancers._wish("a person dances hip hop", None) is None
     assert "no figure shows 'hip hop'" in caplog.text and "polka, salsa" in caplog.text
     assert len(dancers._told) == 3  # and in the JSON
+
+
+def test_a_tag_names_a_kind_of_figures_or_is_said_not_to_be_heard(starter: TextToMotion) -> None:
+    dancers = SongPerformer(Performer(starter), choreographer=Choreographer(tiny_figures()))
+    for tag, kinds, told in (("salsa", {"salsa"}, 0), ("dance", set(), 0), ("zombie", set(), 1)):
+        wish = dancers._wish("a person dances", tag)
+        assert wish is not None and wish.kinds == kinds and len(dancers._told) == told
+    assert "'zombie'" in dancers._told[0] and "--no-figures" in dancers._told[0]
