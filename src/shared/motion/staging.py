@@ -163,6 +163,7 @@ SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
 STEADY, STROLL = 1.0, 0.12  # seconds, standard deviation, and m/s: a faster way is a walk,
 ROUND = 0.55  # metres, radius of the circle that it is bent to
 ROOM, PULLS = 1.1, (PULL, 0.3, 0.6, 1.2)  # metres from the middle; pulls until it stays there
+FACES, ASKEW, FACED = 5.0, 0.5, 1.5  # seconds before the end; radians that are left, and turned
 BACKWARD = 0.8  # share of the way backward that is left out
 
 
@@ -178,15 +179,30 @@ def circling(root: Tensor, fps: float) -> Tensor:
     return rows.to(root.dtype)
 
 
-def staged(root: Tensor, fps: float) -> Tensor:
-    """Root rows [T,6] that `steered` leaves within `ROOM`, by a stronger pull if it has to be."""
+def staged(root: Tensor, fps: float, end: float) -> Tensor:
+    """Root rows [T,6] that `steered` leaves within `ROOM`, by a stronger pull if it has to be, and
+    that face the front, or nearly so, at the second `end`."""
     rows = root
     for pull in PULLS:
-        rows = steered(root, fps, pull=pull)
+        rows = _fronted(steered(root, fps, pull=pull), fps, end)
         path = integrate_root(rows.double(), fps)[0].numpy()[:, [0, 2]]
         if np.linalg.norm(path - path.mean(0), axis=1).max() <= ROOM:
             break
     return rows
+
+
+def _fronted(root: Tensor, fps: float, end: float) -> Tensor:
+    """Root rows [T,6] that turn to the front before the second `end`."""
+    last = min(round(end * fps), len(root) - 1)
+    first = max(0, last - round(FACES * fps))
+    if last <= first:
+        return root
+    rows = root.double().clone()
+    off = math.remainder(float(integrate_root(rows, fps)[1][last]), 2 * math.pi)
+    turn = math.copysign(min(max(abs(off) - ASKEW, 0.0), FACED), off)
+    x = (torch.arange(last - first).double() + 0.5) / (last - first)
+    rows[first:last, YAW_RATE] -= turn * fps / (last - first) * (1 - torch.cos(2 * math.pi * x))
+    return rows.to(root.dtype)
 
 
 def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:

@@ -366,7 +366,7 @@ class Performer:
         else:
             end = int(torch.nonzero(plan.known[:, ROOT_ROW, 0])[-1]) / fps
             features = plan.keep(features)
-            features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], fps)
+            features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], fps, end)
             features = settled(features, end, COMES_TO_REST, fps)
         motion = self.generator.post_processor(
             features, None, text=_title(passages), foot_lock=own.foot_lock, carried=True

@@ -106,7 +106,7 @@ class FigureDancer:
         slots, chosen, features, danced = found
         last = slots[-1].counts
         features = carried(features, wish.manner, FPS)
-        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS)
+        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS, float(last[-1]))
         features = _at_rest(features, danced)
         features = settled(features, last[-1], last[-1] - last[-1 - ENDING])
         if wish.manner.stops:

@@ -24,6 +24,8 @@ from src.shared.motion.rotations import (
 )
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.staging import (
+    ASKEW,
+    FACED,
     FAR,
     PLAIN,
     PULL,
@@ -32,6 +34,7 @@ from src.shared.motion.staging import (
     STEP,
     TURN,
     Manner,
+    _fronted,
     carried,
     circling,
     staged,
@@ -142,9 +145,25 @@ def test_who_wanders_off_stays_near() -> None:
 
 def test_who_walks_off_all_the_same_is_pulled_harder() -> None:
     off = root(left=0.25)
-    assert furthest(steered(off, 30.0)) > 2 * ROOM and furthest(staged(off, 30.0)) < 2 * ROOM
+    assert furthest(steered(off, 30.0)) > 2 * ROOM and furthest(staged(off, 30.0, 30.0)) < 2 * ROOM
     near = root(left=0.05)
-    assert torch.equal(staged(near, 30.0), steered(near, 30.0))
+    assert torch.equal(staged(near, 30.0, 30.0), steered(near, 30.0))
+
+
+@pytest.mark.parametrize("off", [-100.0, -20.0, 0.0, 50.0, 85.0, 170.0, 350.0])
+def test_a_dance_ends_to_the_front_or_nearly(off: float) -> None:
+    rows = torch.zeros(300, 6)
+    rows[100:110, YAW_RATE] = float(np.radians(off)) * 3
+    came = _fronted(rows, 30.0, 9.0)
+    heading = np.degrees(integrate_root(came, 30.0)[1][270].item())
+    left = abs((heading + 180) % 360 - 180)
+    was = abs((off + 180) % 360 - 180)
+    least, most = np.degrees(ASKEW), np.degrees(FACED)
+    assert left == pytest.approx(min(was, max(least, was - most)), abs=0.01)
+    assert (came[:, YAW_RATE] - rows[:, YAW_RATE]).abs().max() < 0.65
+    others = [row for row in range(6) if row != YAW_RATE]
+    assert torch.equal(came[:, others], rows[:, others])
+    assert _fronted(rows[:1], 30.0, 9.0) is not None and _fronted(rows, 30.0, 0.0) is rows
 
 
 def test_a_way_backward_is_mostly_left_out_and_quick_steps_stay() -> None:

@@ -158,7 +158,9 @@ def test_what_no_figure_shows_is_danced_where_figures_step(starter: TextToMotion
     assert plan.shown is not None and not plan.shown[:, :ROOT_ROW].any()
     knees = encode_features(led.motion)[60:300, knee] - plan.values[60:300, knee]
     assert knees.abs().mean() < 0.05
-    way = integrate_root(staged(plan.values[:, ROOT_ROW], FPS), FPS)[0].numpy()[:, [0, 2]]
+    end = int(torch.nonzero(plan.known[:, ROOT_ROW, 0])[-1]) / FPS
+    rows = staged(plan.values[:, ROOT_ROW], FPS, end)
+    way = integrate_root(rows, FPS)[0].numpy()[:, [0, 2]]
 
     def off(found: MotionTrajectory) -> float:
         """Up to the second before the figures end, where what comes after is felt."""
