@@ -443,8 +443,9 @@ def _undanced(kinds: frozenset[str] = frozenset()) -> re.Pattern[str]:
 
 
 def _plain(sentence: str) -> str:
-    """In small letters, with plain apostrophes."""
-    return unicodedata.normalize("NFC", sentence).casefold().replace("\u2019", "'")
+    """In small letters, with plain apostrophes, and French "n'aime" as "ne aime"."""
+    plain = unicodedata.normalize("NFC", sentence).casefold().replace("\u2019", "'")
+    return re.sub(r"\bn'(?=\w)", "ne ", plain)
 
 
 @cache

@@ -417,6 +417,8 @@ def test_who_dances_otherwise_dances_other_figures() -> None:
         "a robot stands instead of dancing",
         "ein Roboter tanzt heute nicht",
         "un robot ne danse jamais",
+        "elle n'aime pas danser",
+        "elle n’aime pas danser la salsa",
         "una persona no está bailando",
         "ロボットは踊りません",
         "不跳舞而是走路",
