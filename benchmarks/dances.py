@@ -8,7 +8,8 @@ or `slow` (4 of 52 to 68 beats a minute).
 The rows of docs/experiments.md, section 57: `MotionGenerator.dance` of the shipped models, a mean
 over songs and seeds. *F* is of the body's beats and the song's; *by chance* of another song's.
 *seam*: 99th percentile of the largest acceleration of a joint within .27 s of where one figure
-follows another. *turned over*: joints, the pelvis apart, that turn by more than 50 degrees in a
+follows another; *both feet*: share of those frames in which both move faster than .1 m/s, and of
+all others. *turned over*: joints, the pelvis apart, that turn by more than 50 degrees in a
 frame, a dance. *frozen pose*: the first pose of each dance, all along.
 """
 
@@ -28,6 +29,7 @@ from src.shared.metrics.rhythm import body_beats, rhythm_f
 from src.shared.metrics.seams import ACCELERATION, body_quantities
 from src.shared.metrics.stage import stage
 from src.shared.model.diffusion import Sampling
+from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.body import Performance
 from src.shared.pipelines.motion_generator import MotionGenerator
 from tests.shared.audio.other_songs import pattern
@@ -39,7 +41,8 @@ SENTENCES = (
     "a sad person dances",
 )  # fmt: skip
 MADE, SLOW, SAMPLE_RATE = ("synthetic", "threes", "slow"), (52.0, 58.0, 63.0, 68.0), 44_100
-NEAR_SEAM = 8  # frames
+NEAR_SEAM, MOVES = 8, 0.1  # frames, m/s
+FEET = [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]
 TURNED = np.cos(np.radians(50) / 2)
 
 
@@ -52,6 +55,8 @@ def figures(dance: Performance, song: Song, other: Song) -> dict[str, float]:
         at = int(figure.times[0] * motion.fps)
         near[max(at - NEAR_SEAM, 0) : at + NEAR_SEAM + 1] = True
     q = motion.quaternions[:, 1:]
+    steps = np.diff(motion.positions()[:, FEET], axis=0, prepend=np.nan)
+    both = np.linalg.norm(steps, axis=-1).min(1) * motion.fps > MOVES
     heard, strange = (
         rhythm_f(own, beats[beats < motion.seconds], motion.seconds)
         for beats in (song.beats.beat_times, other.beats.beat_times)
@@ -60,6 +65,8 @@ def figures(dance: Performance, song: Song, other: Song) -> dict[str, float]:
         "F": heard,
         "by chance": strange,
         "seam": float(np.percentile(strongest[near], 99)) if near.any() else np.nan,
+        "both feet": float(both[near].mean()) if near.any() else np.nan,
+        "elsewhere": float(both[~near].mean()),
         "turned over": float((np.abs((q[1:] * q[:-1]).sum(-1)) < TURNED).sum()),
     }
 
