@@ -13,8 +13,8 @@ then its folder is compared with that of an undisturbed run, and the next begins
     read-only    killed at a random moment, its file system cannot be written; then it can again
 
 But after a kill, it must end with the right code, no traceback and nothing half-written, with one
-line of error where a disk is the reason. Whenever the file is there that is written last, all
-others must be those of the undisturbed run. The speed of steps is not compared.
+line of error where a disk is the reason. Whenever what is written last is there, all other files
+must be those of the undisturbed run. The speed of steps is not compared.
 """
 
 import argparse
@@ -31,7 +31,6 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from multiprocessing import get_context
 from pathlib import Path
 
 from src.cli import tools
@@ -62,12 +61,7 @@ def subjects(folder: Path, workers: int) -> dict[str, Subject]:
     SharedSpace.from_pretrained = lambda name: LinearSpace()  # type: ignore[assignment, method-assign, misc]
     data, clip = folder / "data", folder / "clip"
     preparation.prepare([SyntheticSource(120)], data, workers=1)
-    tower = get_context("fork").Process(
-        target=text.train_clip, args=(text.clip_config(data, clip),)
-    )
-    tower.start()  # apart: whoever has computed should not be forked, and this process will be
-    tower.join()
-    assert tower.exitcode == 0, f"the text tower ended with {tower.exitcode}"
+    text.train_clip(text.clip_config(data, clip))
     circles = audio.write_circles(folder / "circles")
     dancers = write_dancers(folder / "dancers", 60)
 
@@ -166,8 +160,8 @@ class Trial:
         files = [path for path in reference.rglob("*") if path.is_file()]
         self.size = sum(path.stat().st_size for path in files)
         written = {path.relative_to(reference): path.stat().st_mtime_ns for path in files}
-        # Several, where the clock of the file system is coarse.
-        self.last = [name for name, when in written.items() if when == max(written.values())]
+        latest = max(written.values())  # of several, where the clock of the file system is coarse
+        self.last = [name for name, when in written.items() if when == latest]
 
     def run(self, out: Path, *codes: int) -> int:
         """Run the command to its end; its code is 0, or one of those given."""

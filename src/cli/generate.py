@@ -228,8 +228,6 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     drawn = request.path
     if drawn is not None and request.follow_path:
         raise UsageError("--path does not go with --follow-path; leave one out")
-    if drawn is not None:
-        refuse_with("a drawn path, which figures do not keep to", memory=request.memory)
     if not request.follow_path:
         refuse_with("a dance that follows no path (--follow-path)", style=request.style)
     elif not request.figures:

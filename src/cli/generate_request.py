@@ -373,6 +373,10 @@ def check_figures(request: Request) -> None:
     folder = request.memory_folder
     if folder is None:
         return
+    if request.path is not None:
+        refuse_with("a drawn path, which figures do not keep to", memory=request.memory)
+    if not request.figures and not request.pathed:
+        refuse_with("--no-figures", memory=request.memory)
     from ..shared.memory.figures import is_figure_memory
 
     if request.pathed and is_figure_memory(folder):

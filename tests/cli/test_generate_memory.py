@@ -101,8 +101,11 @@ def test_figures_are_for_dances_that_follow_no_path(folder: Path, tmp_path: Path
     for path in ((), ("--body", "--follow-path")):
         result = generate(folder, *out, *memory, *path)
         assert result.exit_code == 2 and "which no path hears" in result.stderr
-    drawn = generate(folder, *out, *memory, "--prompt", "dance", "--path", "circle")
-    assert drawn.exit_code == 2 and "--memory does not go with a drawn path" in drawn.stderr
+    for name in (tmp_path / "figures", folder / "memory"):
+        alone = generate(folder, *out, "--memory", name, "--body", "--no-figures")
+        assert alone.exit_code == 2 and "--memory does not go with --no-figures" in alone.stderr
+        led = generate(folder, *out, "--memory", name, "--prompt", "dance", "--path", "circle")
+        assert led.exit_code == 2 and "--memory does not go with a drawn path" in led.stderr
     phrases = generate(folder, *out, "--memory", folder / "memory", "--body")
     assert phrases.exit_code == 2 and "holds no figures" in phrases.stderr
     assert not (tmp_path / "out").exists()

@@ -17,6 +17,7 @@ Letters: T frames.
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -163,7 +164,8 @@ SWAY = 0.5  # seconds, standard deviation: quicker steps backward stay
 STEADY, STROLL = 1.0, 0.12  # seconds, standard deviation, and m/s: a faster way is a walk,
 ROUND = 0.55  # metres, radius of the circle that it is bent to
 ROOM, PULLS = 1.1, (PULL, 0.3, 0.6, 1.2)  # metres from the middle; pulls until it stays there
-FACES, ASKEW, FACED = 5.0, 0.5, 1.5  # seconds before the end; radians that are left, and turned
+FINISH = 5.0  # seconds before the end, in which a body turns to the front
+ASKEW, TURNED = 0.5, 1.5  # radians: what is left then, and what is turned at most
 BACKWARD = 0.8  # share of the way backward that is left out
 
 
@@ -179,33 +181,46 @@ def circling(root: Tensor, fps: float) -> Tensor:
     return rows.to(root.dtype)
 
 
-def staged(root: Tensor, fps: float, end: float) -> Tensor:
+def staged(root: Tensor, fps: float, end: float, danced: Tensor | None = None) -> Tensor:
     """Root rows [T,6] that `steered` leaves within `ROOM`, by a stronger pull if it has to be, and
-    that face the front, or nearly so, at the second `end`."""
+    that turn towards the front before the second `end`: by TURNED at most, until ASKEW is left.
+
+    Args:
+        root, fps, danced: see `steered`.
+        end: when the dance is over.
+    """
     rows = root
     for pull in PULLS:
-        rows = _fronted(steered(root, fps, pull=pull), fps, end)
+        rows = _fronted(steered(root, fps, pull=pull, danced=danced), fps, end, danced)
         path = integrate_root(rows.double(), fps)[0].numpy()[:, [0, 2]]
         if np.linalg.norm(path - path.mean(0), axis=1).max() <= ROOM:
             break
     return rows
 
 
-def _fronted(root: Tensor, fps: float, end: float) -> Tensor:
-    """Root rows [T,6] that turn to the front before the second `end`."""
+def _fronted(root: Tensor, fps: float, end: float, danced: Tensor | None = None) -> Tensor:
+    """Root rows [T,6] that turn towards the front in the frames before the second `end` that are
+    danced, by less where these are few."""
     last = min(round(end * fps), len(root) - 1)
-    first = max(0, last - round(FACES * fps))
-    if last <= first:
+    first = max(0, last - round(FINISH * fps))
+    x = (torch.arange(last - first).double() + 0.5) / max(last - first, 1)
+    share = 1 - torch.cos(2 * math.pi * x)
+    if danced is not None:
+        share = share * danced[first:last]
+    whole = float(share.sum())
+    if whole < 1e-6:
         return root
     rows = root.double().clone()
     off = math.remainder(float(integrate_root(rows, fps)[1][last]), 2 * math.pi)
-    turn = math.copysign(min(max(abs(off) - ASKEW, 0.0), FACED), off)
-    x = (torch.arange(last - first).double() + 0.5) / (last - first)
-    rows[first:last, YAW_RATE] -= turn * fps / (last - first) * (1 - torch.cos(2 * math.pi * x))
+    most = TURNED * min(whole / (FINISH * fps), 1.0)
+    turn = math.copysign(min(max(abs(off) - ASKEW, 0.0), most), off)
+    rows[first:last, YAW_RATE] -= turn * fps * share / whole
     return rows.to(root.dtype)
 
 
-def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
+def steered(
+    root: Tensor, fps: float, *, pull: float = PULL, danced: Tensor | None = None
+) -> Tensor:
     """Root rows [T,6] of a body that keeps near the middle and comes back to the front.
 
     Args:
@@ -213,14 +228,16 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
             frame is in the middle and faces the front.
         fps: frames a second.
         pull: m/s at most.
+        danced: frames [T] bool; in the others the body goes nowhere. None = all.
     """
     rows = root.double().clone()
     slow = smoothed(rows[:, FORWARD].numpy(), SWAY * fps)
     rows[:, FORWARD] -= torch.from_numpy(BACKWARD * np.minimum(slow, 0.0))
     values, keep = rows.tolist(), math.exp(-1 / (LAG * fps))
+    moves = [True] * len(values) if danced is None else danced.tolist()
     x = z = heading = near_x = near_z = sine = 0.0
     cosine = 1.0
-    for row in values:
+    for row, moving in zip(values, moves, strict=True):
         near_x, near_z = keep * near_x + (1 - keep) * x, keep * near_z + (1 - keep) * z
         sine = keep * sine + (1 - keep) * math.sin(heading)
         cosine = keep * cosine + (1 - keep) * math.cos(heading)
@@ -228,6 +245,8 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
         row[YAW_RATE] -= TURN * sine  # of a spin's mean little is left
         row[FORWARD] += to_x * math.sin(heading) + to_z * math.cos(heading)
         row[LATERAL] += to_x * math.cos(heading) - to_z * math.sin(heading)
+        if not moving:
+            row[YAW_RATE] = row[FORWARD] = row[LATERAL] = 0.0
         forward, left = row[FORWARD] / fps, row[LATERAL] / fps
         x += forward * math.sin(heading) + left * math.cos(heading)
         z += forward * math.cos(heading) - left * math.sin(heading)
@@ -235,47 +254,47 @@ def steered(root: Tensor, fps: float, *, pull: float = PULL) -> Tensor:
     return torch.tensor(values, dtype=root.dtype)
 
 
-SEAM, STEP, SLOPE = 12, 10, 4  # frames from a seam: the root is led, a foot steps; and the edges
-APART, STOOD = 0.06, 0.3  # metres that feet move from each other; share of a step that one stands
+LED, STEP, RAMP = 0.4, 0.33, 0.13  # seconds from a seam: the root is led, a foot steps; the edges
+STOOD = 0.3  # share of a step that one foot stands at least
 GIVES = 1.2  # m/s at most by which the root gives way
-FIRM = 1.5  # frames, standard deviation, over which a foot takes a body over
+TAKEN = 0.05  # seconds, standard deviation, over which a foot takes a body over
 
 
 def stepped(features: Tensor, seams: Sequence[int], fps: float) -> Tensor:
     """Features [T,23,6] in which a foot stands through each seam, and the body goes where it leads.
 
     Two poses that fade into each other stand in two pairs of places, and all feet would slide from
-    one pair to the other. The foot that stands longer stays, the other steps, unless both keep
-    their distance; and the root gives way by what the standing foot would slide.
+    one pair to the other. The foot that stands longer stays and the other steps; the root gives way
+    by what the standing foot would slide.
 
     Args:
         features: raw, of a dance.
-        seams: frames at which one figure has become another.
+        seams: frames in which one figure is half faded into another, ascending; 0 <= seam < T.
         fps: frames a second.
     """
-    if not len(seams):
+    last = len(features) - 1
+    if not len(seams) or last < 1:
         return features
-    result, last = features.clone(), len(features) - 1
-    rows = features[:, ROOT_ROW].double()
-    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS].double())
-    feet = heading_joints(rotations, rows[:, HEIGHT])[:, FEET]  # T 2 3
-    between = (feet[:, 0] - feet[:, 1])[:, [0, 2]]
+    result, time = features.clone(), np.arange(last) / fps
+    reach = round(STEP * fps)
+    middles = [0, *((one + other) // 2 for one, other in pairwise(seams)), last]
     share = np.zeros(last)
-    for seam in seams:
-        span = slice(max(seam - STEP, 0), seam + STEP + 1)
-        ends = between[[max(seam - STEP, 0), min(seam + STEP, last)]]
+    for seam, left, right in zip(seams, middles, middles[1:], strict=False):
+        span = slice(max(seam - reach, left), min(seam + reach, right) + 1)
         stood = features[span, ROOT_ROW, LEFT_CONTACT:].sum(0)
-        if float((ends[1] - ends[0]).norm()) > APART and stood.max() > STOOD * 2 * STEP:
+        if float(stood.max()) > STOOD * (span.stop - span.start):
             longer = int(stood.argmax())
             result[span, ROOT_ROW, LEFT_CONTACT + longer] = 1.0
             result[span, ROOT_ROW, RIGHT_CONTACT - longer] = 0.0
-        x = np.clip((SEAM + 1 - np.abs(np.arange(last) - seam)) / SLOPE, 0, 1)
+        x = np.clip((LED - np.abs(time - seam / fps)) / RAMP, 0, 1)
         share = np.maximum(share, x * x * (3 - 2 * x))
-    carries = smoothed(result[:last, ROOT_ROW, LEFT_CONTACT:].double().numpy(), FIRM)  # T-1 2
-    carries *= (share / np.maximum(carries.sum(1), 1.0))[:, None]
-    heading = integrate_root(rows, fps)[1]
-    moved = to_world(feet, rows, fps).diff(dim=0) * fps
-    slides = turn_about_y(moved, -heading[:-1, None].expand(-1, 2))
+    carries = smoothed(result[:last, ROOT_ROW, LEFT_CONTACT:].double().numpy(), TAKEN * fps)
+    carries *= (share / np.maximum(carries.sum(1), 1.0))[:, None]  # T-1 2
+    rows = features[:, ROOT_ROW].double()
+    rotations = rotation_6d_to_matrix(features[:, :NUM_JOINTS].double())
+    feet = to_world(heading_joints(rotations, rows[:, HEIGHT])[:, FEET], rows, fps)  # T 2 3
+    heading = integrate_root(rows, fps)[1][:-1, None].expand(-1, 2)
+    slides = turn_about_y(feet.diff(dim=0) * fps, -heading)
     led = (torch.from_numpy(carries)[..., None] * slides).sum(1)[:, [0, 2]]  # T-1 2
     led *= GIVES / led.norm(dim=1, keepdim=True).clamp_min(GIVES)
     result[:last, ROOT_ROW, FORWARD] -= led[:, 1].float()

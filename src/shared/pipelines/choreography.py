@@ -445,7 +445,7 @@ def _undanced(kinds: frozenset[str] = frozenset()) -> re.Pattern[str]:
 def _plain(sentence: str) -> str:
     """In small letters, with plain apostrophes, and French "n'aime" as "ne aime"."""
     plain = unicodedata.normalize("NFC", sentence).casefold().replace("\u2019", "'")
-    return re.sub(r"\bn'(?=\w)", "ne ", plain)
+    return re.sub(r"(?<![\w'])n'(?=\w)", "ne ", plain)
 
 
 @cache

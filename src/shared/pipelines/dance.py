@@ -24,7 +24,7 @@ from ..errors import UserError
 from ..model.audio.conditioning import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
-from ..model.generation.constraint import Constraint
+from ..model.generation.constraint import Constraint, tag_index
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..motion.features import FORWARD, HEIGHT, LATERAL
 from ..motion.motion import Danced
@@ -261,15 +261,20 @@ class SongPerformer:
             song: T frames.
             prompt: what the body does; None = what the music says.
             num_samples: candidates N.
-            tag: action label beside the prompt.
+            tag: action label beside the prompt; of a dance in figures, a kind of these, beside
+                those that the prompt names.
             seed: candidate n depends on (seed, song, n) and its prompts alone.
             progress: told the frames done of N · T.
 
         Raises:
+            UsageError: a tag that neither knows.
             UserError: as `Performer.improvise`.
         """
         frames, made = song.condition.shape[1], []
         self._told = []
+        kind = self._kind(tag)
+        if kind is None:
+            tag_index(tag, self.performer.generator.card.tags)
         wish = self._wish(prompt, tag)
         for number in range(num_samples):
             own = candidate_seed(seed, song.seed, number)
@@ -288,6 +293,11 @@ class SongPerformer:
                     progress=told,
                 )
                 dance = replace(dance, figures=figures)
+            elif tag not in (None, "dance") and kind is None:
+                self._tell(
+                    f"figures do not hear the tag {tag!r}: with --no-figures the model dances"
+                    " alone, and does"
+                )
             made.append(dance)
         ranked = self._ranked(made, song, prompt)
         return replace(ranked, warning="; ".join(self._told) or None)
@@ -299,17 +309,14 @@ class SongPerformer:
             self._told.append(line)
 
     def _wish(self, prompt: str | None, tag: str | None) -> Wish | None:
-        """What is asked of recorded figures, by a tag too; None where they do not show it. Says
-        what they do not show of a sentence that names a kind of them."""
+        """What is asked of recorded figures, None where they do not show it; a tag may add a kind
+        of them. Says what they do not show of a sentence that names a kind."""
         if self.choreographer is None or prompt is None:
             return None if self.choreographer is None else Wish()
         here = self.choreographer.kinds
         wish = wish_of(prompt, here, named_kinds())
-        if tag is not None and wish is not None and tag not in DANCED[:1]:
-            if (kind := tag.replace("-", " ")) in here:
-                wish = replace(wish, kinds=wish.kinds | {kind})
-            else:
-                self._tell(f"figures do not hear the tag {tag!r}, and the model does: --no-figures")
+        if wish is not None and (kind := self._kind(tag)):
+            wish = replace(wish, kinds=wish.kinds | {kind})
         there = f"figures that there are: {', '.join(sorted(here))}"
         if wish is None and (other := unshown(prompt, here)):
             self._tell(f"no figure shows {other!r}: the model makes it; {there}")
@@ -325,6 +332,13 @@ class SongPerformer:
                 f" {wish.unread!r}"
             )
         return wish if wish.kinds else None
+
+    def _kind(self, tag: str | None) -> str | None:
+        """The kind of figures that a tag names."""
+        if tag is None or self.choreographer is None:
+            return None
+        named = {each.casefold().replace("-", " "): each for each in self.choreographer.kinds}
+        return named.get(tag.casefold().replace("-", " "))
 
     def _plan(
         self, song: SongCondition, passages: Sequence[Passage], seed: int

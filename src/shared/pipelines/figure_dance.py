@@ -106,8 +106,7 @@ class FigureDancer:
         slots, chosen, features, danced = found
         last = slots[-1].counts
         features = carried(features, wish.manner, FPS)
-        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS, float(last[-1]))
-        features = _at_rest(features, danced)
+        features[:, ROOT_ROW] = staged(features[:, ROOT_ROW], FPS, float(last[-1]), danced)
         features = settled(features, last[-1], last[-1] - last[-1 - ENDING])
         if wish.manner.stops:
             counts = np.unique(np.concatenate([slot.counts for slot in slots]).round(6))
@@ -167,7 +166,7 @@ class FigureDancer:
         if chosen is None:
             return None
         features, danced = lay(self.choreographer.memory, slots, chosen, frames)
-        joins = [later.counts[0] for slot, later in pairwise(slots) if _join(slot, later)]
+        joins = [later.counts[0] for slot, later in pairwise(slots) if _adjacent(slot, later)]
         features = stepped(features, [round(float(seam) * FPS) for seam in joins], FPS)
         for _ in range(2):  # what is moved shows other beats
             features = on_beats(features, song.beats)
@@ -273,8 +272,8 @@ def lay(
     for index, (slot, figure) in enumerate(zip(slots, chosen, strict=True)):
         start, stop = float(slot.counts[0]), float(slot.counts[-1])
         joined = [
-            index > 0 and _join(slots[index - 1], slot),
-            index + 1 < len(slots) and _join(slot, slots[index + 1]),
+            index > 0 and _adjacent(slots[index - 1], slot),
+            index + 1 < len(slots) and _adjacent(slot, slots[index + 1]),
         ]
         weight = torch.ones(frames, dtype=torch.float64)
         for seam, is_joined, sign in ((start, joined[0], 1.0), (stop, joined[1], -1.0)):
@@ -306,7 +305,8 @@ def lay(
     return _held(features, danced), danced
 
 
-def _join(slot: Slot, later: Slot) -> bool:
+def _adjacent(slot: Slot, later: Slot) -> bool:
+    """Whether one phrase begins where the other ends."""
     return abs(float(slot.counts[-1] - later.counts[0])) < 1e-6
 
 
@@ -390,13 +390,7 @@ def _held(features: Tensor, danced: Tensor) -> Tensor:
     left = (right - 1).clamp_min(0)
     nearer = (frames - known[left]).abs() <= (known[right] - frames).abs()
     source = torch.where(nearer, known[left], known[right])
-    return _at_rest(features[source], danced)
-
-
-def _at_rest(features: Tensor, danced: Tensor) -> Tensor:
-    """Features that go nowhere in frames that no figure has."""
-    result = features.clone()
-    rest = torch.nonzero(~danced)[:, 0]
+    result, rest = features[source].clone(), torch.nonzero(~danced)[:, 0]
     for channel in (FORWARD, LATERAL, YAW_RATE):
         result[rest, ROOT_ROW, channel] = 0.0
     return result

@@ -324,7 +324,7 @@ class MotionGenerator:
         Args:
             audio, meter, seconds, num_samples: see `trajectory`.
             prompt: what the body does; None = what the music says.
-            tag: action label beside the prompt.
+            tag: action label beside the prompt; of a dance in figures, a kind of these.
             figures: recorded ones, wherever they show what the prompt asks; else they lend the text
                 model their steps. False = it dances alone.
             follow_path: the audio model makes a path that the body follows.

@@ -25,14 +25,13 @@ from src.shared.motion.rotations import (
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.motion.staging import (
     ASKEW,
-    FACED,
     FAR,
+    GIVES,
     PLAIN,
     PULL,
     ROOM,
-    SEAM,
-    STEP,
     TURN,
+    TURNED,
     Manner,
     _fronted,
     carried,
@@ -150,20 +149,44 @@ def test_who_walks_off_all_the_same_is_pulled_harder() -> None:
     assert torch.equal(staged(near, 30.0, 30.0), steered(near, 30.0))
 
 
+def aside(degrees: float, frames: int = 300) -> torch.Tensor:
+    """Root rows of a body that turns so far at a third of its dance."""
+    rows = torch.zeros(frames, 6)
+    rows[frames // 3 : frames // 3 + 10, YAW_RATE] = float(np.radians(degrees)) * 3
+    return rows
+
+
+def heading(rows: torch.Tensor, frame: int = -1) -> float:
+    """Degrees from the front."""
+    return abs((np.degrees(integrate_root(rows, 30.0)[1][frame].item()) + 180) % 360 - 180)
+
+
 @pytest.mark.parametrize("off", [-100.0, -20.0, 0.0, 50.0, 85.0, 170.0, 350.0])
-def test_a_dance_ends_to_the_front_or_nearly(off: float) -> None:
-    rows = torch.zeros(300, 6)
-    rows[100:110, YAW_RATE] = float(np.radians(off)) * 3
+def test_a_dance_turns_to_the_front_before_its_end(off: float) -> None:
+    rows = aside(off)
     came = _fronted(rows, 30.0, 9.0)
-    heading = np.degrees(integrate_root(came, 30.0)[1][270].item())
-    left = abs((heading + 180) % 360 - 180)
-    was = abs((off + 180) % 360 - 180)
-    least, most = np.degrees(ASKEW), np.degrees(FACED)
-    assert left == pytest.approx(min(was, max(least, was - most)), abs=0.01)
+    was, least, most = abs((off + 180) % 360 - 180), np.degrees(ASKEW), np.degrees(TURNED)
+    assert heading(came, 270) == pytest.approx(min(was, max(least, was - most)), abs=0.01)
     assert (came[:, YAW_RATE] - rows[:, YAW_RATE]).abs().max() < 0.65
     others = [row for row in range(6) if row != YAW_RATE]
     assert torch.equal(came[:, others], rows[:, others])
     assert _fronted(rows[:1], 30.0, 9.0) is not None and _fronted(rows, 30.0, 0.0) is rows
+
+
+def test_a_short_dance_turns_no_faster() -> None:
+    rows = aside(170.0, 30)
+    assert (_fronted(rows, 30.0, 1.0) - rows).abs().max() < 0.65
+
+
+def test_who_waits_goes_nowhere_and_ends_to_the_front_all_the_same() -> None:
+    rows, danced = aside(80.0, 600), torch.ones(600, dtype=torch.bool)
+    rows[:, LATERAL] = 0.1
+    danced[470:530] = False
+    came = staged(rows, 30.0, 20.0, danced)
+    assert not came[470:530][:, [FORWARD, LATERAL, YAW_RATE]].any()
+    assert heading(came) < np.degrees(ASKEW) + 1
+    late = aside(80.0, 150)  # hardly time to be steered
+    assert heading(staged(late, 30.0, 5.0)) < heading(steered(late, 30.0)) - 10
 
 
 def test_a_way_backward_is_mostly_left_out_and_quick_steps_stay() -> None:
@@ -200,52 +223,80 @@ def test_who_walks_off_walks_round_and_a_sway_stays() -> None:
     assert float((circling(sway, 30.0) - sway)[60:-60].abs().max()) < 0.02
 
 
-def straddling(frames: int = 90, seam: int = 45, left: float = 0.35) -> torch.Tensor:
-    """Features of a body that stands on both feet, and within ten frames of a seam has the left one
-    in another place, as a fade has it."""
+FEET = [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]
+
+
+def straddling(
+    seams: tuple[int, ...] = (45,),
+    *,
+    frames: int = 90,
+    left: int = 8,
+    right: int = 15,
+    **way: float,
+) -> torch.Tensor:
+    """Features of a body whose feet slide, and are put elsewhere at each seam: frames in which each
+    stands around it, and root rows."""
     features = encode_features(tiny_figures().takes[0].motion)[:1].repeat(frames, 1, 1)
-    features[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] = 0.0
-    features[:, ROOT_ROW, LEFT_CONTACT:] = 1.0
-    share = torch.clamp((torch.arange(frames) - seam) / 20 + 0.5, 0, 1).double()
-    hip = JOINT_INDEX["l_hip"]
-    turned = axis_angle_to_matrix(0, -left * share) @ rotation_6d_to_matrix(
-        features[:, hip].double()
-    )
-    features[:, hip] = matrix_to_rotation_6d(turned).float()
+    features[:, ROOT_ROW] = root(frames, **way)
+    hip, time = JOINT_INDEX["l_hip"], torch.arange(frames)
+    turned = torch.zeros(frames).double()
+    for number, seam in enumerate(seams):
+        turned += 0.35 * torch.clamp((time - seam) / 20 + 0.5, 0, 1).double()
+        own = (left, right) if number % 2 == 0 else (right, left)
+        for side, stands in enumerate(own):
+            span = slice(max(seam - stands // 2, 0), seam - stands // 2 + stands)
+            features[span, ROOT_ROW, LEFT_CONTACT + side] = 1.0
+    swung = axis_angle_to_matrix(0, -turned) @ rotation_6d_to_matrix(features[:, hip].double())
+    features[:, hip] = matrix_to_rotation_6d(swung).float()
     return features
 
 
-def test_one_foot_stands_through_a_seam_and_the_other_steps() -> None:
-    feet = [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]
-    features = straddling()
-    features[:, ROOT_ROW, FORWARD] = 0.3  # both slide
+def slides(features: torch.Tensor, foot: int, span: slice) -> float:
+    """The fastest that a foot goes over the floor, m/s."""
+    steps = world_joints(features, 30.0)[span, FEET[foot]][:, [0, 2]].diff(dim=0)
+    return float(steps.norm(dim=-1).max()) * 30
+
+
+def test_the_foot_that_stands_longer_stays_and_the_other_steps() -> None:
+    features = straddling(forward=0.3, left=8, turn=1.0)
+    features[:, ROOT_ROW, LATERAL] = 0.2
+    before, core = features.clone(), slice(40, 51)
     came = stepped(features, [45], 30.0)
-    contacts = came[45 - STEP : 46 + STEP, ROOT_ROW, LEFT_CONTACT:]
-    assert sorted(contacts.mean(0).tolist()) == [0.0, 1.0]
-    stands = int(contacts.mean(0).argmax())
-    slides, held = (
-        world_joints(each, 30.0)[40:51, feet[stands], ::2].diff(dim=0).norm(dim=-1).mean() * 30
-        for each in (features, came)
-    )
-    assert slides > 0.25 and held < 0.01
-    outside = [*range(45 - SEAM - 1), *range(46 + SEAM, 90)]
+    assert torch.equal(features, before)
+    assert bool((came[35:56, ROOT_ROW, LEFT_CONTACT + 1] == 1.0).all())
+    assert bool((came[35:56, ROOT_ROW, LEFT_CONTACT] == 0.0).all())
+    assert slides(features, 1, core) > 0.3 and slides(came, 1, core) < 0.01
+    outside = [*range(33), *range(58, 90)]
     assert torch.equal(came[outside], features[outside])
-    ways = [FORWARD, LATERAL, LEFT_CONTACT, LEFT_CONTACT + 1]
-    others = [row for row in range(6) if row not in ways]
-    assert torch.equal(came[:, ROOT_ROW, others], features[:, ROOT_ROW, others])
+    kept = [HEIGHT, YAW_RATE]
+    assert torch.equal(came[:, ROOT_ROW, kept], features[:, ROOT_ROW, kept])
     assert torch.equal(came[:, :ROOT_ROW], features[:, :ROOT_ROW])
 
 
-def test_feet_that_keep_their_distance_need_no_step_and_a_leap_none_either() -> None:
-    still = straddling(left=0.0)
-    assert torch.equal(stepped(still, [45], 30.0), still)
-    assert stepped(still, [], 30.0) is still
-    flies = straddling()
-    flies[:, ROOT_ROW, FORWARD], flies[:, ROOT_ROW, LEFT_CONTACT:] = 1.0, 0.0
-    assert torch.equal(stepped(flies, [45], 30.0), flies)
+def test_who_hardly_stands_takes_no_step_and_who_leaps_is_left_alone() -> None:
+    touches = straddling(left=3, right=5, forward=0.3)
+    contacts = stepped(touches, [45], 30.0)[:, ROOT_ROW, LEFT_CONTACT:]
+    assert torch.equal(contacts, touches[:, ROOT_ROW, LEFT_CONTACT:])
+    leaps = straddling(left=0, right=0, forward=1.0)
+    assert torch.equal(stepped(leaps, [45], 30.0), leaps)
+    assert stepped(leaps, [], 30.0) is leaps
 
 
-@pytest.mark.parametrize("seam", [0, 3, 88, 89])
-def test_a_seam_at_the_edge_of_a_dance(seam: int) -> None:
-    came = stepped(straddling(seam=seam), [seam], 30.0)
-    assert came.shape == (90, 23, 6) and bool(torch.isfinite(came).all())
+def test_one_foot_after_the_other_where_seams_are_near() -> None:
+    came = stepped(straddling((39, 51), forward=0.3), [39, 51], 30.0)
+    contacts = came[:, ROOT_ROW, LEFT_CONTACT:]
+    assert contacts[33:44].mean(0).tolist() == [0.0, 1.0]
+    assert contacts[47:58].mean(0).tolist() == [1.0, 0.0]
+    assert slides(came, 1, slice(36, 42)) < 0.01 and slides(came, 0, slice(49, 54)) < 0.01
+
+
+def test_the_root_gives_way_by_so_much_and_no_more() -> None:
+    fast = straddling(forward=4.0)
+    change = (stepped(fast, [45], 30.0) - fast)[:, ROOT_ROW, [FORWARD, LATERAL]].norm(dim=-1)
+    assert float(change.max()) == pytest.approx(GIVES, abs=1e-4)
+
+
+@pytest.mark.parametrize(("seam", "frames"), [(0, 90), (3, 90), (88, 90), (89, 90), (0, 1), (1, 2)])
+def test_a_seam_at_the_edge_of_a_dance(seam: int, frames: int) -> None:
+    came = stepped(straddling(frames=frames), [seam], 30.0)
+    assert came.shape == (frames, 23, 6) and bool(torch.isfinite(came).all())

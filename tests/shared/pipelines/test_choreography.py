@@ -427,3 +427,9 @@ def test_who_dances_otherwise_dances_other_figures() -> None:
 )
 def test_what_is_denied_or_no_dance(sentence: str) -> None:
     assert not says_dance(sentence)
+
+
+@pytest.mark.parametrize("kind", ["rock'n'roll", "drum'n'bass"])
+def test_an_apostrophe_denies_nothing_within_a_word(kind: str) -> None:
+    wish = wish_of(f"a person dances {kind}", {kind})
+    assert wish is not None and wish.kinds == {kind}

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from src.shared.config_audio import AudioTowerConfig
 from src.shared.config_schema import NetworkConfig
+from src.shared.errors import UsageError
 from src.shared.memory.figures import FPS
 from src.shared.model.audio.shared_space import SharedSpace
 from src.shared.model.checkpoint import ModelCard
@@ -192,9 +193,17 @@ def test_what_the_figures_do_not_show_is_said(
     assert len(dancers._told) == 3  # and in the JSON
 
 
-def test_a_tag_names_a_kind_of_figures_or_is_said_not_to_be_heard(starter: TextToMotion) -> None:
-    dancers = SongPerformer(Performer(starter), choreographer=Choreographer(tiny_figures()))
-    for tag, kinds, told in (("salsa", {"salsa"}, 0), ("dance", set(), 0), ("zombie", set(), 1)):
-        wish = dancers._wish("a person dances", tag)
-        assert wish is not None and wish.kinds == kinds and len(dancers._told) == told
-    assert "'zombie'" in dancers._told[0] and "--no-figures" in dancers._told[0]
+def test_a_tag_names_a_kind_of_figures_beside_those_of_the_prompt(starter: TextToMotion) -> None:
+    performer = Performer(starter, PerformerSettings(steps=2))
+    dancers = SongPerformer(performer, choreographer=Choreographer(tiny_figures()))
+    for prompt, tag, kinds in (
+        ("a person dances", "Salsa", {"salsa"}), ("a person dances", None, set()),
+        ("a person dances", "dance", set()), ("a person dances polka", "salsa", {"polka", "salsa"}),
+    ):  # fmt: skip
+        wish = dancers._wish(prompt, tag)
+        assert wish is not None and wish.kinds == kinds
+    with pytest.raises(UsageError, match="'zzz' is not one this model"):
+        dancers.dance(condition(), "a person dances", tag="zzz")
+    for tag, told in (("zombie", "do not hear the tag 'zombie'"), ("dance", None), ("salsa", None)):
+        warning = dancers.dance(condition(), "a person dances", tag=tag).warning
+        assert warning is None if told is None else told in (warning or "")

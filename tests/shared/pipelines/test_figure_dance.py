@@ -19,7 +19,7 @@ from src.shared.motion.features import (
     encode_features,
 )
 from src.shared.motion.postprocess.whole import hanging_arms
-from src.shared.motion.staging import Manner, settled
+from src.shared.motion.staging import Manner, settled, stepped
 from src.shared.pipelines.body import Performer, PerformerSettings
 from src.shared.pipelines.choreography import Choreographer, Wish
 from src.shared.pipelines.dance import SongPerformer
@@ -215,3 +215,23 @@ def test_who_asks_for_a_kind_that_no_tempo_fits_is_told(
     slow = dancers.dance(condition(tempo=78.0), "a person dances polka")
     assert not slow.ranked[0].figures
     assert "no figure of polka fits the tempo" in caplog.text
+
+
+def test_a_foot_stands_through_each_seam_and_at_no_gap(
+    choreographer: Choreographer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[list[int]] = []
+
+    def spied(features: torch.Tensor, seams: list[int], fps: float) -> torch.Tensor:
+        seen.append(list(seams))
+        return stepped(features, seams, fps)
+
+    monkeypatch.setattr("src.shared.pipelines.figure_dance.stepped", spied)
+    dancer = FigureDancer(choreographer, tiny_generator())
+    for heard in (condition(), condition((150, 240))):
+        found = dancer.dance(heard, Wish(), sampling=Sampling(steps=2))
+        assert found is not None
+        times = [figure.times for figure in found[1]]
+        joined = [b[0] for a, b in pairwise(times) if abs(a[-1] - b[0]) < 1e-6]
+        assert seen.pop() == [round(time * 30) for time in joined]
+        assert len(joined) == (0 if heard.waits else len(times) - 1) and len(times) > 1

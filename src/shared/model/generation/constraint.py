@@ -253,7 +253,7 @@ def make_requests(
     count: Counter[str] = Counter()
     requests = []
     for prompt, length, label in zip(prompts, lengths, labels, strict=True):
-        frames, tag = _frames(length, fps), _tag_index(label, known_tags)
+        frames, tag = _frames(length, fps), tag_index(label, known_tags)
         text = zlib.crc32(prompt.encode())
         for _ in range(num_samples):
             requests.append(SampleRequest(prompt, frames, tag, (seed, text, count[prompt])))
@@ -301,7 +301,8 @@ def _frames(seconds: float | None, fps: float) -> int:
     return frames
 
 
-def _tag_index(tag: str | None, known: Sequence[str]) -> int:
+def tag_index(tag: str | None, known: Sequence[str]) -> int:
+    """The place of a tag among those known, their number for None; raises UsageError."""
     if tag is None:
         return len(known)
     if tag not in known:
