@@ -280,11 +280,12 @@ def lay(
             share = ((time - seam) * sign / blend + 1) / 2
             x = share.clamp(0, 1) if is_joined else (sign * (time - seam) >= -1e-9).double()
             weight *= x**3 * (x * (6 * x - 15) + 10)
+        weight = weight.float()
         own = torch.nonzero(weight > 0)[:, 0]
         if not len(own):
             continue
         features = _warped(memory, figure, slot.counts, time[own].numpy())
-        part = weight[own].float()
+        part = weight[own]
         root[own] += part[:, None] * features[:, ROOT_ROW]
         quaternions = quaternion_continuous(
             matrix_to_quaternion(rotation_6d_to_matrix(features[:, :NUM_JOINTS])), dim=0

@@ -235,3 +235,16 @@ def test_a_foot_stands_through_each_seam_and_at_no_gap(
         joined = [b[0] for a, b in pairwise(times) if abs(a[-1] - b[0]) < 1e-6]
         assert seen.pop() == [round(time * 30) for time in joined]
         assert len(joined) == (0 if heard.waits else len(times) - 1) and len(times) > 1
+
+
+def test_a_frame_on_the_very_edge_of_a_fade(choreographer: Choreographer) -> None:
+    slots = choreographer.parted(condition().slots(), Wish())
+    chosen = choreographer.choose(slots, Wish(), 0, lambda done, total: None)
+    assert chosen is not None and len(slots) > 1
+    for nudge in (0.0, 1e-17, 1e-16, 1e-15, 1e-12):  # weights that float32 has no number for
+        seam = 4.3 - nudge * 4.3
+        shifted = [
+            replace(slot, counts=slot.counts - slots[1].counts[0] + seam) for slot in slots[:2]
+        ]
+        features, _ = lay(choreographer.memory, shifted, chosen[:2], 300)
+        assert bool(torch.isfinite(features).all())
