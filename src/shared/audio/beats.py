@@ -24,7 +24,7 @@ Letters: S samples, T frames, P pitch frames, N beats or windows (of pitch: semi
 (of filters: mel bands), L beat lengths in frames, F features, B pairs of bands, G candidate tempi.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -361,6 +361,7 @@ DRIFT_COST, JUMP_COST = 300.0, 4.0  # of log-ratio² from beat to beat, at most 
 # Of 60 noises, glides and strokes at random 58 stay below, of 489 held-out songs all above.
 MIN_CONFIDENCE = 0.35
 AUDIBLE, GAP = 10.0, 1.5  # dB above the floor; seconds between two audible beats
+QUIET, AROUND = 10 ** (-50 / 20), 1.0  # of the loudest tenth of a second; seconds
 CHANCE = 0.8  # confidence that a second of noise reaches; falls with the length
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 
@@ -391,6 +392,15 @@ def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | No
     Returns:
         Beats; with tempo 0.0 and empty times where nothing periodic is heard.
     """
+    start, stop = _loud_part(sound, sample_rate)
+    if start or stop < len(sound):  # what nobody hears is no reason to doubt the rest
+        found = track_beats(sound[start:stop], sample_rate, meter=meter)
+        later = start / sample_rate
+        return replace(
+            found,
+            beat_times=found.beat_times + later,
+            downbeat_times=found.downbeat_times + later,
+        )
     onsets = detect_onsets(sound, sample_rate)
     nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
     if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
@@ -419,6 +429,19 @@ def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | No
         meter=meter,
         confidence=confidence,
     )
+
+
+def _loud_part(sound: np.ndarray, sample_rate: int) -> tuple[int, int]:
+    """First and last-plus-one sample of what is within QUIET of the loudest, AROUND on either
+    side left; where no more than twice that would go, nothing does."""
+    size, around = max(sample_rate // 10, 1), round(AROUND * sample_rate)
+    pieces = sound[: len(sound) // size * size].reshape(-1, size).astype(np.float64)
+    level = np.sqrt((pieces**2).mean(1))
+    loud = np.flatnonzero(level > QUIET * level.max(initial=0.0))
+    if not len(loud):
+        return 0, len(sound)
+    first, last = int(loud[0]) * size - around, (int(loud[-1]) + 1) * size + around
+    return (first if first > around else 0), (last if last < len(sound) - around else len(sound))
 
 
 def _novelty(strength: np.ndarray, fps: float) -> np.ndarray:

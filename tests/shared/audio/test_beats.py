@@ -124,6 +124,21 @@ def test_a_gap_has_no_beats_and_loses_no_bar() -> None:
     assert (np.diff(phase) > 0).all() and np.abs(phase - expected)[450:].max() < 0.1
 
 
+def test_silence_around_a_song_is_no_reason_to_doubt_it() -> None:
+    spec = SongSpec(seconds=16.0, tempo=118.0, seed=3)
+    plain = track_beats(render_song(spec).samples)
+    for before, behind in ((40.0, 0.0), (0.0, 40.0), (70.0, 30.0)):
+        hiss = np.random.default_rng(0).normal(0, 3e-5, round((before + 16.0 + behind) * 44_100))
+        start = round(before * 44_100)
+        hiss[start : start + 16 * 44_100] += render_song(spec).samples[: 16 * 44_100]
+        found = track_beats(hiss)
+        assert found.tempo == pytest.approx(plain.tempo, rel=0.01) and found.meter == plain.meter
+        own = found.beat_times - before
+        assert len(own) == pytest.approx(len(plain.beat_times), abs=1)
+        assert np.abs(own[:, None] - plain.beat_times).min(1).max() < 0.03
+        assert np.isin(found.downbeat_times, found.beat_times).all()
+
+
 def test_a_change_of_tempo_is_followed() -> None:
     spec = SongSpec(seconds=30.0, tempo=((0.0, 100.0), (15.0, 100.0), (15.0, 128.0)), seed=2)
     song = render_song(spec)
