@@ -124,6 +124,22 @@ def test_a_gap_has_no_beats_and_loses_no_bar() -> None:
     assert (np.diff(phase) > 0).all() and np.abs(phase - expected)[450:].max() < 0.1
 
 
+@pytest.mark.parametrize("tempo", [110.0, 120.0, 174.0])
+def test_kicks_with_hats_between_are_heard_at_the_tempo_of_the_kicks(tempo: float) -> None:
+    rate, rng = 44_100, np.random.default_rng(1)
+    time = np.arange(rate // 5) / rate
+    kick = 0.9 * np.sin(2 * np.pi * (50 * time + 8 * (1 - np.exp(-30 * time)))) * np.exp(-15 * time)
+    hat = 0.2 * rng.normal(size=len(time)) * np.exp(-70 * time)
+    sound, beats = np.zeros(20 * rate), np.arange(0, 19.4, 60 / tempo)
+    for beat in beats:
+        for stroke, when in ((kick, beat), (hat, beat + 30 / tempo)):
+            start = round(when * rate)
+            sound[start : start + len(stroke)] += stroke
+    found = track_beats(sound, rate)
+    assert found.tempo == pytest.approx(tempo, rel=0.01)
+    assert f_measure(beats, found.beat_times) > 0.9
+
+
 def test_silence_around_a_song_is_no_reason_to_doubt_it() -> None:
     spec = SongSpec(seconds=16.0, tempo=118.0, seed=3)
     plain = track_beats(render_song(spec).samples)
