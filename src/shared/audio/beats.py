@@ -1,4 +1,4 @@
-"""Beats, tempo and the unwrapped bar phase of a song.
+"""Beats, downbeats and tempo of a song.
 
 Onset strengths at 100 frames a second → likely tempi per window → the best chain of
 beats by dynamic programming over beat time and beat length together (a semi-Markov form of the
@@ -29,6 +29,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .features import centred_frames
+from .sound import loud_part
 
 # ---------------------------------------------------------------- onsets
 
@@ -397,7 +398,6 @@ def _change(levels: np.ndarray, span: int) -> np.ndarray:
 
 # ---------------------------------------------------------------- beats
 
-DEFAULT_TEMPO = 120.0  # BPM of the phase where a song has no beat
 LENGTHS = np.arange(28, 137)  # frames: 214 to 44 BPM
 TEMPO_WEIGHT = 3.0  # of a tempo's log-probability against onset strength, both per second
 TEMPO_FLOOR = -8.0
@@ -405,7 +405,6 @@ DRIFT_COST, JUMP_COST = 300.0, 4.0  # of log-ratio² from beat to beat, at most 
 # Of 60 noises, glides and strokes at random 58 stay below, of 489 held-out songs all above.
 MIN_CONFIDENCE = 0.35
 AUDIBLE, GAP = 10.0, 1.5  # dB above the floor; seconds between two audible beats
-QUIET, AROUND = 10 ** (-50 / 20), 1.0  # of the loudest tenth of a second; seconds
 CHANCE = 0.8  # confidence that a second of noise reaches; falls with the length
 NEIGHBOURS = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25]) / 2
 
@@ -436,7 +435,7 @@ def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | No
     Returns:
         Beats; with tempo 0.0 and empty times where nothing periodic is heard.
     """
-    start, stop = _loud_part(sound, sample_rate)
+    start, stop = loud_part(sound, sample_rate)
     if start or stop < len(sound):  # what nobody hears is no reason to doubt the rest
         found = track_beats(sound[start:stop], sample_rate, meter=meter)
         later = start / sample_rate
@@ -476,19 +475,6 @@ def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | No
         meter=meter,
         confidence=confidence,
     )
-
-
-def _loud_part(sound: np.ndarray, sample_rate: int) -> tuple[int, int]:
-    """First and last-plus-one sample of what is within QUIET of the loudest, AROUND on either
-    side left; where no more than twice that would go, nothing does."""
-    size, around = max(sample_rate // 10, 1), round(AROUND * sample_rate)
-    pieces = sound[: len(sound) // size * size].reshape(-1, size).astype(np.float64)
-    level = np.sqrt((pieces**2).mean(1))
-    loud = np.flatnonzero(level > QUIET * level.max(initial=0.0))
-    if not len(loud):
-        return 0, len(sound)
-    first, last = int(loud[0]) * size - around, (int(loud[-1]) + 1) * size + around
-    return (first if first > around else 0), (last if last < len(sound) - around else len(sound))
 
 
 def _novelty(strength: np.ndarray, fps: float) -> np.ndarray:
@@ -603,40 +589,3 @@ def _median_tempo(times: np.ndarray, span: int = 8) -> float:
     """BPM, from the median time of `span` beats: finer than from single ones."""
     span = min(span, len(times) - 1)
     return float(60 * span / np.median(times[span:] - times[:-span]))
-
-
-def bar_phase(beats: Beats, num_frames: int, fps: float = 30.0) -> np.ndarray:
-    """Unwrapped bar phase [num_frames] (float64, bars): whole numbers at downbeats, rising.
-
-    Linear between beats, carried on at both ends with the pace of the nearest bar. The
-    first downbeat is 0. Without beats it runs at DEFAULT_TEMPO from 0 (confidence is 0 then).
-    """
-    frames = np.arange(num_frames) / fps
-    times = beats.beat_times
-    if len(times) < 2:
-        return frames * DEFAULT_TEMPO / 60 / beats.meter
-    bars = _bars_at_beats(times, beats.downbeat_times, beats.meter)
-    near = min(beats.meter, len(times) - 1)
-    head = (bars[near] - bars[0]) / (times[near] - times[0])
-    tail = (bars[-1] - bars[-1 - near]) / (times[-1] - times[-1 - near])
-    phase = np.interp(frames, times, bars)
-    phase = np.where(frames < times[0], bars[0] + (frames - times[0]) * head, phase)
-    return np.asarray(np.where(frames > times[-1], bars[-1] + (frames - times[-1]) * tail, phase))
-
-
-def _bars_at_beats(times: np.ndarray, downbeats: np.ndarray, meter: int) -> np.ndarray:
-    """Bars [N] at each beat: whole at downbeats, equal steps between, 1 / meter outside them; a gap
-    counts as many beats as it lasts."""
-    steps = np.diff(times)
-    silent = np.where(steps > GAP, np.rint(steps / np.median(steps)) - 1, 0)  # beats of each gap
-    numbers = np.arange(len(times)) + np.concatenate(([0.0], np.cumsum(silent)))
-    if not len(downbeats):
-        return numbers / meter
-    opening = numbers[np.searchsorted(times, downbeats)]
-    has_gap = np.diff(opening) > np.diff(np.searchsorted(times, downbeats))
-    bars = np.where(has_gap, np.maximum(np.rint(np.diff(opening) / meter), 1), 1)
-    bars = np.concatenate(([0.0], np.cumsum(bars)))
-    found = np.interp(numbers, opening, bars)
-    found = np.where(numbers < opening[0], (numbers - opening[0]) / meter, found)
-    after = bars[-1] + (numbers - opening[-1]) / meter
-    return np.asarray(np.where(numbers > opening[-1], after, found))

@@ -21,7 +21,7 @@ import numpy as np
 from ..errors import UserError
 from ..io.arrays import write_arrays
 from ..io.files import sha256_file
-from .beats import Beats, bar_phase, track_beats
+from .beats import GAP, Beats, track_beats
 from .features import AudioFeatures, Chroma, extract_features, read_arrays
 from .sound import FPS, Sound, load_sound
 
@@ -180,3 +180,43 @@ def _remembered(entry: Path) -> Song | None:
     except UserError as error:
         log.warning("made again: %s", error)
         return None
+
+
+DEFAULT_TEMPO = 120.0  # BPM of the phase where a song has no beat
+
+
+def bar_phase(beats: Beats, num_frames: int, fps: float = 30.0) -> np.ndarray:
+    """Unwrapped bar phase [num_frames] (float64, bars): whole numbers at downbeats, rising.
+
+    Linear between beats, carried on at both ends with the pace of the nearest bar. The
+    first downbeat is 0. Without beats it runs at DEFAULT_TEMPO from 0 (confidence is 0 then).
+    """
+    frames = np.arange(num_frames) / fps
+    times = beats.beat_times
+    if len(times) < 2:
+        return frames * DEFAULT_TEMPO / 60 / beats.meter
+    bars = _bars_at_beats(times, beats.downbeat_times, beats.meter)
+    near = min(beats.meter, len(times) - 1)
+    head = (bars[near] - bars[0]) / (times[near] - times[0])
+    tail = (bars[-1] - bars[-1 - near]) / (times[-1] - times[-1 - near])
+    phase = np.interp(frames, times, bars)
+    phase = np.where(frames < times[0], bars[0] + (frames - times[0]) * head, phase)
+    return np.asarray(np.where(frames > times[-1], bars[-1] + (frames - times[-1]) * tail, phase))
+
+
+def _bars_at_beats(times: np.ndarray, downbeats: np.ndarray, meter: int) -> np.ndarray:
+    """Bars [N] at each beat: whole at downbeats, equal steps between, 1 / meter outside them; a gap
+    counts as many beats as it lasts."""
+    steps = np.diff(times)
+    silent = np.where(steps > GAP, np.rint(steps / np.median(steps)) - 1, 0)  # beats of each gap
+    numbers = np.arange(len(times)) + np.concatenate(([0.0], np.cumsum(silent)))
+    if not len(downbeats):
+        return numbers / meter
+    opening = numbers[np.searchsorted(times, downbeats)]
+    has_gap = np.diff(opening) > np.diff(np.searchsorted(times, downbeats))
+    bars = np.where(has_gap, np.maximum(np.rint(np.diff(opening) / meter), 1), 1)
+    bars = np.concatenate(([0.0], np.cumsum(bars)))
+    found = np.interp(numbers, opening, bars)
+    found = np.where(numbers < opening[0], (numbers - opening[0]) / meter, found)
+    after = bars[-1] + (numbers - opening[-1]) / meter
+    return np.asarray(np.where(numbers > opening[-1], after, found))

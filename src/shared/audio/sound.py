@@ -125,3 +125,19 @@ class _Mixer:
         if self._resampler is None:
             return nothing
         return np.asarray(self._resampler.resample_chunk(nothing, last=True))
+
+
+QUIET, AROUND = 10 ** (-50 / 20), 1.0  # of the loudest tenth of a second; seconds
+
+
+def loud_part(sound: np.ndarray, sample_rate: int) -> tuple[int, int]:
+    """First and last-plus-one sample of what is within QUIET of the loudest, AROUND on either
+    side left; where no more than twice that would go, nothing does."""
+    size, around = max(sample_rate // 10, 1), round(AROUND * sample_rate)
+    pieces = sound[: len(sound) // size * size].reshape(-1, size).astype(np.float64)
+    level = np.sqrt((pieces**2).mean(1))
+    loud = np.flatnonzero(level > QUIET * level.max(initial=0.0))
+    if not len(loud):
+        return 0, len(sound)
+    first, last = int(loud[0]) * size - around, (int(loud[-1]) + 1) * size + around
+    return (first if first > around else 0), (last if last < len(sound) - around else len(sound))

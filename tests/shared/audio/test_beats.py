@@ -6,14 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from src.shared.audio.beats import (
-    DEFAULT_TEMPO,
     Beats,
     _numbers,
-    bar_phase,
     detect_onsets,
     mel_filters,
     track_beats,
 )
+from src.shared.audio.song import DEFAULT_TEMPO, bar_phase
 from src.shared.audio.synthetic import (
     SAMPLE_RATE,
     SongSpec,
