@@ -134,8 +134,8 @@ def loud_part(sound: np.ndarray, sample_rate: int) -> tuple[int, int]:
     """First and last-plus-one sample of what is within QUIET of the loudest, AROUND on either
     side left; where no more than twice that would go, nothing does."""
     size, around = max(sample_rate // 10, 1), round(AROUND * sample_rate)
-    pieces = sound[: len(sound) // size * size].reshape(-1, size).astype(np.float64)
-    level = np.sqrt((pieces**2).mean(1))
+    pieces = sound[: len(sound) // size * size].reshape(-1, size)
+    level = np.sqrt(np.einsum("ps,ps->p", pieces, pieces) / size)  # no copy of hours of sound
     loud = np.flatnonzero(level > QUIET * level.max(initial=0.0))
     if not len(loud):
         return 0, len(sound)
