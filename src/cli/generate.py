@@ -90,15 +90,7 @@ def produce(request: Request) -> dict[str, Any]:
         refuse_with("--audio", prompts=request.prompts)
         check_figures(request)
         check_sound(song)
-        result = (song_path if request.path_alone else dance)(request, song)
-        if result["tempo"] == 0:
-            from ..shared.pipelines.figure_dance import STAND
-
-            passages = [each for row in result["motions"] for each in row.get("passages", [])]
-            stands = passages and all(each["text"] == STAND for each in passages)
-            own = "body stands" if stands else "motion keeps its own time"
-            tell(f"note: no beat was found in {result['audio']}; the {own}")
-        return result
+        return (song_path if request.path_alone else dance)(request, song)
     dancing = ("body", "body_model", "follow_path")
     for name in dancing:
         if getattr(request, name):
@@ -203,6 +195,7 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
         raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
     files.check_path_formats(request.format or "")
     from ..shared.formats.registry import TRAJECTORY_EXPORTERS
+    from ..shared.pipelines.song import BEATLESS
 
     formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
     generator, song, clock, style = listen(request, audio, bodies=False)
@@ -218,6 +211,9 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
     rows, index = files.write_trajectories(
         made, request.kept, audio, formats, request.out, settings
     )
+    (beatless,) = warn([None if song.beats.tempo else BEATLESS])
+    for row in rows:
+        row["warning"] = beatless
     clock.lap("write")
     selection = [(str(audio), made.table)] if request.num_samples > 1 else []
     return told_of_song(request, generator, song, rows, index, selection, clock)

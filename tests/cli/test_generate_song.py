@@ -76,8 +76,10 @@ def test_a_cut_off_song_gets_its_page(
 
 def test_a_song_without_beat_has_none_in_its_page(folder: Path, tmp_path: Path) -> None:
     soundfile.write(tmp_path / "still.wav", np.zeros(44_100 * 2), 44_100)
-    result = generate(folder, tmp_path / "still.wav", "--format", "html", "--out", tmp_path)
+    asked = ("--format", "html", "--json", "--out", tmp_path)
+    result = generate(folder, tmp_path / "still.wav", *asked)
     assert "no beat was found" in result.stderr
+    assert "no beat was found" in json.loads(result.stdout)["motions"][0]["warning"]
     (motion,) = Page(tmp_path / "still.html").data["motions"]
     assert motion["meter"] == 0 and motion["beats"] == ""
 

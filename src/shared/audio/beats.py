@@ -50,12 +50,14 @@ class Onsets:
 
     Attributes:
         bands: [3, T] mean rise of the low, middle and high bands, dB in 20 ms.
+        blows: [2, T] rise of amplitude in the low and the middle band in 20 ms, by the loudest.
         loudness: [T] level of the loudest band in dB above the floor.
         pitch: [N, P] levels of the semitones, compressed, at `pitch_fps`.
         silent: nothing can be heard.
     """
 
     bands: np.ndarray
+    blows: np.ndarray
     loudness: np.ndarray
     pitch: np.ndarray
     fps: float
@@ -69,18 +71,20 @@ class Onsets:
 
 
 def detect_onsets(samples: np.ndarray, sample_rate: int) -> Onsets:
-    """Onset strengths and pitch levels of mono sound [S]: spectra of 46 ms windows for the moment
-    of an onset, of 186 ms for pitch. What is kept are 20 kB a second."""
+    """Onsets of mono sound [S]: spectra of 46 ms for their moment, of 186 ms for pitch."""
     hop, bins = _framing(sample_rate, ONSET_FPS, ONSET_WINDOW)
     centres, filters = mel_filters(bins)
     power = _powers(samples, hop, filters)
     peak = float(power.max(initial=0.0))
     level = np.maximum(10 * np.log10(np.maximum(power, 1e-20) / max(peak, 1e-20)) + FLOOR_DB, 0.0)
-    groups = np.split(_rise(level), np.searchsorted(centres, [LOW, HIGH]))
+    edges = np.searchsorted(centres, [LOW, HIGH])
+    drums = np.sqrt([part.mean(axis=0) for part in np.split(power, edges)[:2]])
+    rises = np.maximum(drums - np.pad(drums, ((0, 0), (LAG, 0)), mode="edge")[:, :-LAG], 0.0)
     pitch_hop, bins = _framing(sample_rate, PITCH_FPS, PITCH_WINDOW)
     pitch = np.sqrt(_powers(samples, pitch_hop, pitch_filters(bins)))  # amplitudes
     return Onsets(
-        bands=np.stack([group.mean(axis=0) for group in groups]),
+        bands=np.stack([part.mean(axis=0) for part in np.split(_rise(level), edges)]),
+        blows=rises / np.maximum(drums.max(axis=1, keepdims=True, initial=0.0), 1e-10),
         loudness=level.max(axis=0),
         pitch=np.log1p(100 * pitch / max(float(pitch.max(initial=0.0)), 1e-10)),
         fps=sample_rate / hop,
@@ -128,11 +132,9 @@ def mel_filters(bins: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def pitch_filters(bins: np.ndarray) -> np.ndarray:
     """Triangles [N, bins], a semitone or at least a bin to each side."""
-    centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES) - 69) / 12)
-    width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])[:, None]
-    return np.asarray(
-        np.maximum(0.0, 1 - np.abs(bins - centres[:, None]) / width).astype(np.float32)
-    )
+    centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES)[:, None] - 69) / 12)
+    width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])
+    return np.maximum(0.0, 1 - np.abs(bins - centres) / width).astype(np.float32)
 
 
 def _rise(level: np.ndarray) -> np.ndarray:
@@ -226,6 +228,7 @@ def tempo_path(scores: np.ndarray) -> np.ndarray:
 
 ALIKE = 0.6  # correlation after two fifths of a beat: at most .23 in 56 other songs
 FEWER = 0.7  # of a mistaken beat; longer ones are ruled out
+FAST, KICKS = 0.34, 1.8  # seconds: half of it is as far from 125 BPM; times as strong
 EDGE = 0.3  # seconds: a beat as short as the shortest is half of one that no candidate doubles
 
 
@@ -254,18 +257,29 @@ def without_illusions(scores: np.ndarray, correlations: np.ndarray, fps: float) 
     return np.asarray(scores - top - np.log(np.exp(scores - top).sum(axis=1, keepdims=True)))
 
 
-def _on_kicks(chain: np.ndarray, low: np.ndarray) -> np.ndarray:
-    """Beat frames [N], or those halfway between them where the low band [T] strikes there."""
-    if len(chain) < 3:
-        return chain
-    half = np.diff(chain, append=2 * chain[-1] - chain[-2]) // 2
-    between = np.concatenate((chain[:1] - half[:1], chain + half))
-    between = between[(between >= 0) & (between < len(low))]
-    around = np.arange(-3, 4)
-    on, off = (
-        low[np.clip(at[:, None] + around, 0, len(low) - 1)].max(1).mean() for at in (chain, between)
-    )
-    return between if off > 2 * on else chain
+def _on_kicks(chain: np.ndarray, onsets: Onsets, strength: np.ndarray) -> np.ndarray:
+    """Beat frames [N] as drums tell them, for hats, however loud, tell no beat of their own: every
+    second one of a fast chain whose drums strike there alone, with nothing between its beats; or
+    those halfway between, where the kicks are. `strength` [T] is of onsets."""
+
+    def stroke(rows: np.ndarray, frames: np.ndarray) -> np.ndarray:
+        near = np.clip(frames[:, None] + np.arange(-3, 4), 0, len(strength) - 1)
+        return np.asarray(rows[..., near].max(axis=-1).mean(axis=-1))
+
+    def halfway(chain: np.ndarray) -> np.ndarray:
+        half = np.diff(chain, append=2 * chain[-1] - chain[-2]) // 2
+        frames = np.concatenate((chain[:1] - half[:1], chain + half))
+        return frames[(frames >= 0) & (frames < len(strength))]
+
+    parts, fast = (chain[::2], chain[1::2]), np.median(np.diff(chain)) < FAST * onsets.fps
+    if fast and len(parts[1]) > 2:
+        empty = KICKS * stroke(strength, halfway(chain)) < min(stroke(strength, p) for p in parts)
+        blows = [stroke(onsets.blows, part) for part in parts]
+        for some, other in ((0, 1), (1, 0)):
+            if empty and (blows[some] > KICKS * blows[other]).all():
+                chain = parts[some]
+    on, off = stroke(onsets.blows, chain), stroke(onsets.blows, between := halfway(chain))
+    return between if (off > on).all() and off.sum() > KICKS * on.sum() else chain
 
 
 def certainty(scores: np.ndarray, path: np.ndarray) -> float:
@@ -437,29 +451,23 @@ def track_beats(sound: np.ndarray, sample_rate: int = 44_100, *, meter: int | No
     """
     start, stop = loud_part(sound, sample_rate)
     if start or stop < len(sound):  # what nobody hears is no reason to doubt the rest
-        found = track_beats(sound[start:stop], sample_rate, meter=meter)
-        later = start / sample_rate
-        return replace(
-            found,
-            beat_times=found.beat_times + later,
-            downbeat_times=found.downbeat_times + later,
-        )
+        found, later = track_beats(sound[start:stop], sample_rate, meter=meter), start / sample_rate
+        beats, downbeats = found.beat_times + later, found.downbeat_times + later
+        return replace(found, beat_times=beats, downbeat_times=downbeats)
     onsets = detect_onsets(sound, sample_rate)
     nothing = Beats(0.0, np.zeros(0), np.zeros(0), meter or 4)
     if onsets.silent or onsets.strength.size < 2 * LENGTHS[0]:
         return nothing
     novelty = _novelty(onsets.bands, onsets.fps)
     correlations, centres = correlate_windows(novelty, onsets.fps)
-    likely = tempo_scores(correlations, onsets.fps)
-    scores = without_illusions(likely, correlations, onsets.fps)
+    scores = without_illusions(tempo_scores(correlations, onsets.fps), correlations, onsets.fps)
     strength = novelty.mean(axis=0)
     path = tempo_path(scores)
     chain = _best_chain(strength, scores, path, centres * onsets.fps, onsets.fps)
-    if scores is not likely:  # some were ruled out
-        chain = _on_kicks(chain, novelty[0])
     chain = chain[_sounding(onsets, chain)]
     if len(chain) < 3:
         return nothing
+    chain = _on_kicks(chain, onsets, strength)
     times = _refined(chain, strength) / onsets.fps
     lengths = np.interp(centres, times[:-1], np.diff(times)) * onsets.fps
     confidence = (periodicity(correlations, lengths) + certainty(scores, path)) / 2

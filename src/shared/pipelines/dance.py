@@ -34,7 +34,7 @@ from .body import Performance, Performer
 from .choreography import Choreographer, Wish, named_kinds, says_dance, unshown, wish_of
 from .figure_dance import STAND, FigureDancer
 from .ranking import PerformanceJudge, ScoreTable, unranked
-from .song import SongCondition
+from .song import BEATLESS, SongCondition
 from .stream import Passage
 from .text import SentenceGenerator
 
@@ -272,6 +272,14 @@ class SongPerformer:
         """
         frames, made = song.condition.shape[1], []
         self._told = []
+        still = sum(stop - start for start, stop in song.waits)
+        if not len(song.beats):
+            self._tell("no beat was found: the body stands" if still == frames else BEATLESS)
+        elif 2 * still > frames:
+            self._tell(
+                f"silence or noise for {still / FPS:.0f} of {frames / FPS:.0f} s: there the body"
+                " stands"
+            )
         kind = self._kind(tag)
         if kind is None:
             tag_index(tag, self.performer.generator.card.tags)
@@ -299,8 +307,7 @@ class SongPerformer:
                     " alone, and does"
                 )
             made.append(dance)
-        ranked = self._ranked(made, song, prompt)
-        return replace(ranked, warning="; ".join(self._told) or None)
+        return self._ranked(made, song, prompt)
 
     def _tell(self, line: str) -> None:
         """Say it, once a dance, and keep it."""
@@ -427,7 +434,9 @@ class SongPerformer:
             UsageError: as `Performer.perform`.
             UserError: as `Performer.perform`.
         """
-        beats = song.beats if len(song.beats) else None
+        beats, self._told = song.beats if len(song.beats) else None, []
+        if beats is None:
+            self._tell(BEATLESS)
         made = []
         for number, path in enumerate(paths):
             own = candidate_seed(seed, song.seed, number)
@@ -450,7 +459,8 @@ class SongPerformer:
             prompts = [self._embedded(dance.passages) for dance in made]
             beats = song.beats if len(song.beats) else None
             table = self.judge.judge(made, prompts, beats, raw=raw)
-        return Dances(prompt, [made[place] for place in table.order], table)
+        told = "; ".join(self._told) or None
+        return Dances(prompt, [made[place] for place in table.order], table, told)
 
     def _passages(
         self,

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from .song_memory import SongMemory
 
 log = logging.getLogger(__name__)
+BEATLESS = "no beat was found: the motion keeps its own time"
 STYLE_MODEL = "starter"  # reads a style that is a sentence
 ModelT = TypeVar("ModelT", bound=Runtime)
 
