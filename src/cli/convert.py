@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from ..shared.motion.motion import Motion
 
 
-ROOTS = ("on", "in-place")
-
-
 @dataclass(frozen=True)
 class Job:
     """One file to read and those to write from it, each with its format."""
@@ -49,7 +46,7 @@ def convert(
         ),
     ] = None,
     fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
-    root: Annotated[str, typer.Option(help="on; or in-place: no travel.")] = "on",
+    root: options.Root = "on",
     names: Annotated[
         str, typer.Option(help="Joint names in bvh, glb, usd: canonical, mixamo, unity, unreal.")
     ] = "canonical",
@@ -81,8 +78,7 @@ def convert(
     from ..shared.formats.rig import joint_names
     from ..shared.io.jobs import run_jobs
 
-    if root not in ROOTS:
-        raise UsageError(f"--root {root!r} is unknown; choose from {', '.join(ROOTS)}")
+    options.check_root(root)
     options.check_scheduler(scheduler)
     joint_names(names)
     named = list(map(place, files))
@@ -318,7 +314,9 @@ MAX_INDENT = 24  # levels; deeper joints are shown there
 
 
 def inspect(
-    file: Annotated[Path, typer.Argument(help="A motion file: bvh, amc, glb, npz or npy.")],
+    file: Annotated[
+        Path, typer.Argument(help="A motion or an avatar: bvh, amc, glb, vrma, vrm, npz or npy.")
+    ],
     mapping: options.Mapping = None,
     unit: options.Unit = None,
     up: options.Up = None,

@@ -29,6 +29,7 @@ SourceFps = Annotated[
 Skeleton = Annotated[
     Path | None, typer.Option(help="ASF skeleton of AMC files; the one beside each.")
 ]
+Root = Annotated[str, typer.Option(help="on; or in-place: no travel.")]
 Threads = Annotated[int | None, typer.Option(help="CPU threads to use.")]
 Workers = Annotated[int | None, typer.Option(help="Processes; one a core.")]
 Scheduler = Annotated[
@@ -97,6 +98,12 @@ ReportFile = Annotated[Path | None, typer.Option(help="Report file: .json, or .m
 def parts(text: str) -> list[str]:
     """What is named with commas between."""
     return [part.strip() for part in text.split(",") if part.strip()]
+
+
+def check_root(root: str) -> None:
+    """Raises UsageError: not one of the choices of `Root`."""
+    if root not in ("on", "in-place"):
+        raise UsageError(f"--root {root!r} is unknown; choose from on, in-place")
 
 
 def check_scheduler(scheduler: str | None) -> None:

@@ -1,8 +1,10 @@
 """`stream`: a body that moves while sentences are typed, out to whoever listens."""
 
+import os
 import socket
 import sys
 import threading
+from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Annotated
 
@@ -51,6 +53,7 @@ def stream(
     ] = None,
     device: options.Device = "auto",
     threads: options.Threads = None,
+    root: options.Root = "on",
     json: options.Json = False,
 ) -> None:
     """Move on and on; each line typed or piped in is what the body does next.
@@ -61,7 +64,7 @@ def stream(
     \b
     Examples:
       motion-tools stream
-      motion-tools stream --vmc 39539 --prompt "a person walks in a circle"
+      motion-tools stream --vmc 39539 --root in-place --prompt "a person walks"
       (sleep 5; echo "a person waves") | motion-tools stream --websocket 8765
     """
     check_range("seconds", seconds, 0.3, 60.0)
@@ -69,6 +72,7 @@ def stream(
         raise UsageError("--prompt is empty; say what the body does at first")
     if websocket is not None and not 0 <= websocket < 65536:
         raise UsageError(f"--websocket {websocket} is no port; give one from 0 to 65535")
+    options.check_root(root)
     from ..shared.environment import compute_without_torch
     from ..shared.model.onnx_card import chosen_runtime
 
@@ -85,7 +89,7 @@ def stream(
     generator = MotionGenerator(model, device=device)
     body = LiveBody(
         generator, prompt, sampling=sampling, window=window, foot_lock=foot_lock,
-        real_time=real_time,
+        real_time=real_time, in_place=root == "in-place",
     )  # fmt: skip
 
     def say(line: str) -> None:
@@ -101,7 +105,7 @@ def stream(
 
     def listen() -> None:
         try:
-            for number, line in enumerate(sys.stdin):
+            for number, line in enumerate(_lines()):
                 if number and not sys.stdin.isatty():
                     body.wait(AFTER)  # so that each line of a file is seen
                 say(line)
@@ -139,3 +143,19 @@ def stream(
     late = figures.latencies
     heard = f", a sentence seen after {max(late):.2f} s at most" if late else ""
     tell(f"{figures.frames} frames, made {figures.speed:.1f} times as fast as they pass{heard}")
+
+
+def _lines() -> Iterator[str]:
+    """Lines of standard input as they come, past Python's buffer: an interpreter that ends while a
+    thread waits in that one aborts."""
+    try:
+        source = sys.stdin.fileno()
+    except (OSError, ValueError):  # it is no file
+        yield from sys.stdin
+        return
+    begun = b""
+    while block := os.read(source, 1 << 16):
+        *whole, begun = (begun + block).split(b"\n")
+        yield from (line.decode("utf-8", "replace") for line in whole)
+    if begun:
+        yield begun.decode("utf-8", "replace")

@@ -9,6 +9,7 @@ from typer.testing import CliRunner, Result
 
 from src.cli.tools import app
 from src.shared.formats.writers.bvh import write_bvh
+from src.shared.formats.writers.glb import write_glb
 from src.shared.motion.motion import Motion
 
 
@@ -18,12 +19,15 @@ def run(*arguments: object) -> Result:
 
 @pytest.fixture(scope="module")
 def bvh(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_bvh(still(), tmp_path_factory.mktemp("in") / "still.bvh")
+
+
+def still() -> Motion:
     """A body that stands still for a second."""
     quaternions = np.zeros((30, 22, 4), np.float32)
     quaternions[..., 0] = 1
     root = np.tile(np.float32([0, 0.95, 0]), (30, 1))
-    motion = Motion(quaternions, root, np.ones((30, 2), np.float32))
-    return write_bvh(motion, tmp_path_factory.mktemp("in") / "still.bvh")
+    return Motion(quaternions, root, np.ones((30, 2), np.float32))
 
 
 @pytest.fixture
@@ -47,6 +51,14 @@ def test_people_see_all_of_it(bvh: Path) -> None:
     tree = [line for line in lines if line.startswith("    ")]
     assert tree[0].split() == ["pelvis", "pelvis"] and len(tree) == 22
     assert tree[1].startswith("      l_hip") and tree[2].startswith("        l_knee")
+
+
+def test_an_avatar_is_seen_at_rest(tmp_path: Path) -> None:
+    """Where --skeleton of a .vrm that lacks a bone sends people."""
+    path = write_glb(still(), tmp_path / "me.glb").rename(tmp_path / "me.vrm")
+    found = json.loads(run(path, "--json").stdout)
+    assert (found["format"], found["unit"], found["up"]) == ("VRM", "m", "Y")
+    assert len(found["matched"]) == 22
 
 
 def test_programs_see_the_same(bvh: Path) -> None:

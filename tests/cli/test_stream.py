@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -34,6 +35,18 @@ def test_sentences_from_a_pipe() -> None:
     assert "60 frames" in result.stderr and "torch" not in result.stderr
 
 
+@pytest.mark.skipif(os.name == "nt", reason="no SIGINT there")
+def test_it_can_be_stopped_while_it_waits_for_a_line() -> None:
+    """A thread that waits in Python's buffer of stdin aborted one in six of interpreters."""
+    command = [sys.executable, "-m", "src.cli.tools", "stream", "--steps", "2"]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:  # type: ignore[call-overload]
+        assert process.stdout.readline().startswith(b"{")
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130 and b"Fatal" not in errors
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -41,6 +54,7 @@ def test_sentences_from_a_pipe() -> None:
         (["--websocket", "70000"], "--websocket 70000"),
         (["--vmc", "here:there"], "is no address"),
         (["--window", "9"], "--window 9"),
+        (["--root", "off"], "--root 'off'"),
     ],
 )
 def test_wrong_usage(arguments: list[str], words: str) -> None:

@@ -17,6 +17,8 @@ FPS = 30
 HOP = SAMPLE_RATE // FPS  # samples of a frame
 MIN_SECONDS = 1.0
 CHUNK_SECONDS = 10.0
+CANCELS = 1e-3  # energy of the mix, by that of the first channel
+CANCELLED = "{}: its channels cancel each other out when mixed; the first alone is heard"
 SAMPLES = Path("samples")  # of a sound that came from no file
 
 
@@ -55,16 +57,24 @@ def load_sound(path: str | Path) -> Sound:
         UserError: missing, no sound file, shorter than 1 s, longer than 2 h, nothing but NaN.
     """
     path = Path(path)
+    mono, notes, cancelled = _read(path)
+    if cancelled:
+        mono, notes, _ = _read(path, channels=1)
+        notes = (*notes, CANCELLED.format(path))
+    sound = Sound(mono, path, sha256_file(path), notes)
+    _check_length(sound)
+    return sound
+
+
+def _read(path: Path, channels: int | None = None) -> tuple[np.ndarray, tuple[str, ...], bool]:
+    """Samples [S] of the first channels, what was mended, and whether they cancel out."""
     reader = SoundReader(path)
-    mixer = _Mixer(reader.rate)
+    mixer = _Mixer(reader.rate, channels)
     samples = array("f")  # grows where it is: chunks joined in the end would lie there twice
     for block in reader.blocks(max(1, round(CHUNK_SECONDS * reader.rate))):
         samples.frombytes(mixer.push(block).tobytes())
     samples.frombytes(mixer.finish().tobytes())
-    mono = np.frombuffer(samples, np.float32)
-    sound = Sound(mono, path, sha256_file(path), tuple(reader.notes()))
-    _check_length(sound)
-    return sound
+    return np.frombuffer(samples, np.float32), tuple(reader.notes()), mixer.cancelled
 
 
 def check_sound(path: str | Path) -> None:
@@ -87,9 +97,13 @@ def sound_from_samples(samples: np.ndarray, sample_rate: int = SAMPLE_RATE) -> S
     """
     samples = np.atleast_2d(np.asarray(samples, dtype=np.float32).T).T  # [S,channels]
     mender, mixer = Mender(), _Mixer(sample_rate)
-    mono = np.concatenate([mixer.push(mender.mend(samples)), mixer.finish()])
+    samples = mender.mend(samples)
+    mono, notes = np.concatenate([mixer.push(samples), mixer.finish()]), list(mender.notes(SAMPLES))
+    if mixer.cancelled:
+        mixer, notes = _Mixer(sample_rate, 1), [*notes, CANCELLED.format(SAMPLES)]
+        mono = np.concatenate([mixer.push(samples), mixer.finish()])
     digest = hashlib.sha256(mono.tobytes()).hexdigest()
-    sound = Sound(mono, SAMPLES, digest, tuple(mender.notes(SAMPLES)))
+    sound = Sound(mono, SAMPLES, digest, tuple(notes))
     _check_length(sound)
     return sound
 
@@ -105,10 +119,11 @@ def _check_length(sound: Sound) -> None:
 
 
 class _Mixer:
-    """Mixes down and resamples a stream of samples."""
+    """Mixes down the first channels, None = all, and resamples a stream of samples."""
 
-    def __init__(self, rate: int) -> None:
+    def __init__(self, rate: int, channels: int | None = None) -> None:
         self._resampler: Any = None
+        self._channels, self._mixed, self._apart = channels, 0.0, 0.0  # and the energies
         if rate != SAMPLE_RATE:
             import soxr
 
@@ -116,8 +131,16 @@ class _Mixer:
 
     def push(self, samples: np.ndarray) -> np.ndarray:
         """[s,channels] at the file's rate -> [S] at 44.1 kHz."""
+        samples = samples[:, : self._channels]
         mono = samples.mean(axis=1, dtype=np.float32)
+        self._mixed += float(np.vdot(mono, mono))
+        self._apart += float(np.vdot(samples[:, 0], samples[:, 0]))
         return np.asarray(mono if self._resampler is None else self._resampler.resample_chunk(mono))
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether the mix is next to nothing beside the first channel: one wire is crossed."""
+        return self._mixed < CANCELS * self._apart
 
     def finish(self) -> np.ndarray:
         """The samples that the resampler still holds."""

@@ -24,7 +24,7 @@ import numpy as np
 from ..errors import UsageError
 from ..formats.rig import SCHEMES
 from ..model.diffusion import Sampling
-from ..motion.motion import Motion
+from ..motion.motion import Motion, in_place
 from ..motion.skeleton import canonical_skeleton
 from .motion_generator import MotionGenerator
 from .stream import DEFAULT_SAMPLING
@@ -92,6 +92,7 @@ class LiveBody:
         foot_lock: hold standing feet; None = the model's own setting. Without it, frames settle
             0.9 s sooner.
         real_time: frames come when they are due; False: as soon as they are made.
+        in_place: the body stays over the middle.
     """
 
     def __init__(
@@ -103,13 +104,14 @@ class LiveBody:
         window: float = WINDOW,
         foot_lock: bool | None = None,
         real_time: bool = True,
+        in_place: bool = False,
     ) -> None:
         self.fps = generator.text.card.fps
         self.figures = LiveFigures(fps=self.fps)
         self._stream = generator.stream(
             text, seconds=window, ahead=AHEAD, sampling=sampling, foot_lock=foot_lock
         )
-        self._real_time = real_time
+        self._real_time, self._in_place = real_time, in_place
         self._said: dict[str, float] = {}  # sentences not yet seen, and when they came
         self._ended = threading.Event()
         self._limit: int | None = None
@@ -195,7 +197,7 @@ class LiveBody:
             self.figures.busy += time.perf_counter() - started
             if piece is None:
                 return
-            yield piece
+            yield in_place(piece) if self._in_place else piece
 
 
 def _counted(

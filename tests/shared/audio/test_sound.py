@@ -204,3 +204,15 @@ def test_silence_and_clipping_are_fine(tmp_path: Path) -> None:
     assert not silent.samples.any()
     clipped = np.clip(20 * tone(2.0, SAMPLE_RATE), -1, 1)
     assert load_sound(write(tmp_path / "clipped.wav", clipped)).notes == ()
+
+
+def test_channels_that_cancel_each_other_out_are_not_silence(tmp_path: Path) -> None:
+    """A crossed wire: what is mixed to mono would be silence, and nobody would dance."""
+    left = tone(2.0, 48000, 1)
+    crossed = np.concatenate([left, -left], axis=1)
+    path = write(tmp_path / "song.wav", crossed, 48000, subtype="FLOAT")
+    alone = load_sound(write(tmp_path / "left.wav", left, 48000, subtype="FLOAT"))
+    for sound in (load_sound(path), sound_from_samples(crossed, 48000)):
+        np.testing.assert_allclose(sound.samples, alone.samples, atol=1e-6)
+        assert "cancel" in sound.notes[-1]
+    assert load_sound(write(tmp_path / "still.wav", 0 * crossed, 48000)).notes == ()

@@ -41,6 +41,16 @@ def test_frames_are_those_of_the_stream(generator: MotionGenerator) -> None:
     assert figures.speed > 0
 
 
+def test_a_body_in_place_moves_as_it_does_and_goes_nowhere(generator: MotionGenerator) -> None:
+    there: list[Frame] = []
+    here: list[Frame] = []
+    body(generator).play([there.append], seconds=1.0)
+    body(generator, in_place=True).play([here.append], seconds=1.0)
+    for frame, same in zip(here, there, strict=True):
+        np.testing.assert_array_equal(frame.quaternions, same.quaternions)
+        assert frame.root.tolist() == [0.0, same.root[1], 0.0]
+
+
 def test_a_sentence_is_seen_and_its_delay_told(generator: MotionGenerator) -> None:
     live, texts = body(generator), []
 

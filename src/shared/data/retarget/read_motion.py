@@ -73,7 +73,7 @@ def open_recording(
     ending = path.suffix.lower()
     if ending == ".bvh":
         return Recording("BVH", clip=read_bvh(path))
-    if ending in (".glb", ".vrma"):
+    if ending in (".glb", ".vrma", ".vrm"):  # the last is an avatar, at rest
         clip = read_glb(path)
         return Recording(ending[1:].upper(), clip=clip, up="Y", metres=1.0, text=clip.text)
     if ending == ".csv":
