@@ -1,6 +1,6 @@
 """A WebSocket server on the loopback address: text to all who listen, their text back (RFC 6455).
 
-Only what that takes: unfragmented text of up to `MAX_TEXT` bytes, close, ping. Pages of other
+Only what that takes: text of up to `MAX_TEXT` bytes, whole or in parts, close, ping. Pages of other
 origins than this machine's are refused: any page may try to open a socket here.
 """
 
@@ -17,7 +17,7 @@ from ..errors import UserError
 
 HOST, MAX_TEXT, MAX_HEAD = "127.0.0.1", 4096, 8192
 _MAGIC = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # RFC 6455, section 1.3
-_TEXT, _CLOSE, _PING, _PONG = 1, 8, 9, 10
+_MORE, _TEXT, _CLOSE, _PING, _PONG = 0, 1, 8, 9, 10
 _OWN = ("localhost", "127.0.0.1", "[::1]", "::1", None)
 
 
@@ -78,14 +78,19 @@ class WebSocketServer:
             client.settimeout(None)
             with self._lock:
                 self._clients.add(client)
+            begun = b""  # of a text in parts
             while (frame := _read_frame(client)) is not None:
-                kind, data = frame
+                kind, data, last = frame
                 if kind == _CLOSE:
-                    return
+                    return self._send(client, _CLOSE, data[:2])
                 if kind == _PING:
                     self._send(client, _PONG, data)
-                if kind == _TEXT:
-                    self._heard(data.decode())
+                if kind in (_MORE, _TEXT):
+                    begun = data if kind == _TEXT else begun + data
+                    if len(begun) > MAX_TEXT:
+                        raise ValueError("too long")
+                    if last:
+                        self._heard(begun.decode())
         except (OSError, ValueError):
             pass  # gone, or no WebSocket
         finally:
@@ -137,22 +142,23 @@ def _handshake(client: socket.socket) -> bytes:
     return "".join(f"{line}\r\n" for line in (*lines, "")).encode()
 
 
-def _read_frame(client: socket.socket) -> tuple[int, bytes] | None:
-    """Kind and data of the next frame; None at the end. Raises ValueError for what is none."""
+def _read_frame(client: socket.socket) -> tuple[int, bytes, bool] | None:
+    """Kind and data of the next frame, and whether it is the last of its text; None at the end.
+    Raises ValueError for what is none."""
     head = _exactly(client, 2)
     if head is None:
         return None
     size = head[1] & 0x7F
     if size == 126:
         size = int.from_bytes(_exactly(client, 2) or b"\xff\xff", "big")
-    whole = head[0] & 0x80 and head[1] & 0x80
-    if not whole or head[1] & 0x7F == 127 or size > MAX_TEXT:
-        raise ValueError("not masked, in parts, or too long")
+    if not head[1] & 0x80 or head[1] & 0x7F == 127 or size > MAX_TEXT:
+        raise ValueError("not masked, or too long")
     body = _exactly(client, 4 + size)
     if body is None:
         return None
     mask, data = body[:4], body[4:]
-    return head[0] & 0x0F, bytes(byte ^ mask[at % 4] for at, byte in enumerate(data))
+    told = bytes(byte ^ mask[at % 4] for at, byte in enumerate(data))
+    return head[0] & 0x0F, told, bool(head[0] & 0x80)
 
 
 def _exactly(client: socket.socket, size: int) -> bytes | None:

@@ -66,13 +66,22 @@ def test_both_ways(server: WebSocketServer, heard: list[str]) -> None:
     until(lambda: heard == ["一个人挥手"])
     client.sendall(masked(9, b"hi"))
     assert client.recv(64) == b"\x8a\x02hi"
-    client.sendall(masked(8, b""))
+    client.sendall(masked(8, b"\x03\xe8bye"))
+    assert client.recv(64) == b"\x88\x02\x03\xe8"  # the same code
     until(lambda: not server._clients)
 
 
-@pytest.mark.parametrize(
-    "data", [b"\x81\x02ab", masked(1, b"x" * 5000), b"\x01\x80abcd", b"\xff\xff\xff\xff\xff"]
-)
+def test_a_text_may_come_in_parts(server: WebSocketServer, heard: list[str]) -> None:
+    client, words = joined(server), "一个人挥手".encode()
+    first, more, last = masked(1, words[:4]), masked(0, words[4:9]), masked(0, words[9:])
+    client.sendall(bytes([first[0] & 0x7F]) + first[1:] + bytes([more[0] & 0x7F]) + more[1:])
+    client.sendall(masked(9, b"hi") + last)
+    until(lambda: heard == ["一个人挥手"])
+    client.sendall(2 * (bytes([1]) + masked(1, b"x" * 4000)[1:]) + masked(0, b"x" * 200))
+    until(lambda: not server._clients)
+
+
+@pytest.mark.parametrize("data", [b"\x81\x02ab", masked(1, b"x" * 5000), b"\xff\xff\xff\xff\xff"])
 def test_what_is_no_frame_of_ours_ends_it(server: WebSocketServer, data: bytes) -> None:
     client = joined(server)
     client.sendall(data)
