@@ -42,7 +42,7 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
         if kind == "free":
             continue
         clauses = sentences.clauses(text)
-        readings = [sentences.generator.read(clause.text) for clause in clauses]
+        readings = sentences.generator.read([clause.text for clause in clauses])
         found = [each.nearest[0] if each and each.nearest else None for each in readings]
         if kind == "two-sides":
             groups[kind].append(len(clauses) == 1 and clauses[0].meanwhile != "")
@@ -65,7 +65,7 @@ def figures(model: str) -> dict[str, Any]:
     doubted: dict[bool, list[bool]] = {True: [], False: []}
     for (entry, text), told in zip(rows, warned, strict=True):
         first, *others = sentences.clauses(text)
-        reading = None if others else generator.read(first.text)
+        reading = None if others else generator.read([first.text])[0]
         action = entry["labels"]["action"]
         right = is_read(action, reading.nearest[0] if reading and reading.nearest else None)
         for name in ("all", entry["language"], action):

@@ -49,6 +49,17 @@ def has_words(text: str) -> bool:
     return any(map(str.isalnum, text))
 
 
+def check_text(name: str, text: Any) -> None:
+    """Refuse a text without a letter or digit, and one with half characters.
+
+    Raises:
+        UsageError: naming it.
+    """
+    whole = isinstance(text, str) and text.encode(errors="ignore").decode() == text
+    if not (whole and has_words(text)):
+        raise UsageError(f"{name} {text!r} holds no word; say in a few what is done")
+
+
 def in_range(name: str, value: Any, least: float, most: float, *, whole: bool = False) -> None:
     """Refuse what is no number from `least` to `most`; NaN is none, and no bool.
 

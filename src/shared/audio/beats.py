@@ -134,7 +134,7 @@ def pitch_filters(bins: np.ndarray) -> np.ndarray:
     """Triangles [N, bins], a semitone or at least a bin to each side."""
     centres = 440.0 * 2 ** ((LOWEST_PITCH + np.arange(SEMITONES)[:, None] - 69) / 12)
     width = np.maximum(centres * (2 ** (1 / 12) - 1), bins[1])
-    return np.maximum(0.0, 1 - np.abs(bins - centres) / width).astype(np.float32)
+    return np.asarray(np.maximum(0.0, 1 - np.abs(bins - centres) / width).astype(np.float32))
 
 
 def _rise(level: np.ndarray) -> np.ndarray:

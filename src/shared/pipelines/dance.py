@@ -497,7 +497,7 @@ class SongPerformer:
 
     def _reads(self, text: str, actions: Collection[str]) -> bool:
         """Whether a text comes out as one of some actions."""
-        found = self.performer.generator.read(text)
+        [found] = self.performer.generator.read([text])
         return found is not None and bool(found.nearest) and found.nearest[0] in actions
 
     def _embedded(self, passages: Sequence[Passage]) -> Tensor:

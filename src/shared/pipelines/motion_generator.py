@@ -21,7 +21,7 @@ import numpy as np
 
 from ..config_loader import ConfigT, dump_config, load_config
 from ..environment import TEXT_MODEL, default_audio_model
-from ..errors import UsageError, in_range
+from ..errors import UsageError, check_text, in_range
 from ..model.checkpoint import read_card, resolve_model
 from ..model.diffusion import Sampling
 from ..model.generation.motion_generator import Progress, TextToMotion
@@ -31,7 +31,7 @@ from .edit import ControlledMotion, Given, edited
 from .path import Way, along_path, path_of
 from .ranking import PerformanceJudge, PromptResult, PromptSampler, TextJudge, load_tower, own_tower
 from .sentence import whole
-from .stream import DEFAULT_SAMPLING, MotionStream, Passage, check_text
+from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import SentenceGenerator
 from .timeline import Timeline, read_timeline
 

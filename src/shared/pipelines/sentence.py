@@ -25,6 +25,7 @@ from .words import (
     all_words,
     bare,
     begins_after,
+    measure_of,
     names_both,
     plain_text,
     side_of,
@@ -68,6 +69,7 @@ PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
     "bends": (Reading("turn", 3.0), "turns left"),
     "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
 }
+PLAIN = [said for _, said in PLAINLY.values()]
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -541,9 +543,7 @@ def _with_measures(text: str) -> Clause:
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
     for name, (field, factor, least) in UNITS.items():
-        found = words.units[name].finditer(clause.text)
-        match = next((each for each in found if value_of(each["number"]) >= least), None)
-        if match is None:
+        if (match := measure_of(name, clause.text, least)) is None:
             continue
         if name == "steps" and words.uncounted.search(match["manner"] or ""):
             continue  # "raises two arms steps back"

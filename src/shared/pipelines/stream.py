@@ -14,11 +14,10 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
-from ..errors import UsageError, has_words, in_range
+from ..errors import UsageError, check_text, in_range
 from ..metrics.measurements import ends_at_rest
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
@@ -250,17 +249,6 @@ class Latency:
     lookahead: float
     reaction: float
     load: float | None
-
-
-def check_text(name: str, text: Any) -> None:
-    """Refuse a text without a letter or digit, and one with half characters.
-
-    Raises:
-        UsageError: naming it.
-    """
-    whole = isinstance(text, str) and text.encode(errors="ignore").decode() == text
-    if not (whole and has_words(text)):
-        raise UsageError(f"{name} {text!r} holds no word; say in a few what is done")
 
 
 class MotionStream:

@@ -55,7 +55,7 @@ from .path import (
     time_path,
     turned,
 )
-from .sentence import GOING, LOW, Clause, Reading, clauses, whole
+from .sentence import GOING, LOW, PLAIN, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, side_of, turns_head, unlearned
@@ -96,6 +96,8 @@ class SentenceGenerator:
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
+            if not self._scoped:  # which each sentence asks for
+                self._scoped |= zip(PLAIN, self.generator.read(PLAIN), strict=True)
             self._read[prompt] = clauses(prompt, self._reading)
         return self._read[prompt]
 
@@ -161,8 +163,9 @@ class SentenceGenerator:
             if not plain:
                 break
             for index, others in sampled(plain, again, scale).items():
-                pairs = zip(made.get(index, others), others, strict=True)
-                made[index] = [self._better(prompts[index], *pair) for pair in pairs]
+                old, does, prompt = made.get(index, others), self._does, prompts[index]
+                made[index] = [new if does(prompt, new) and not does(prompt, was) else was
+                               for was, new in zip(old, others, strict=True)]  # fmt: skip
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
             if guidance_scale is None:
                 scale = INSISTING * self.generator.network.generation.guidance_scale
@@ -252,21 +255,18 @@ class SentenceGenerator:
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
         None where kinematics cannot see that."""
-        action, scope = self._nearest(text), self.generator.scope
+        action, scope, side = self._nearest(text), self.generator.scope, side_of(text)
         if scope is None or action is None:
             return None
         seen = [ACTIONS[action]] if action in scope.checked else []
-        if (side := side_check(action, side_of(text), by_hand=action in scope.arms)) is not None:
-            seen.append(side)
+        if side != "both" and (check := side_check(action, side, by_hand=action in scope.arms)):
+            seen.append(check)
         return (lambda m: all(check(m) for check in seen)) if seen else None
 
     def _does(self, prompt: str, motion: Motion) -> bool:
         """Whether a motion shows the action of its prompt; True where nobody can say."""
         wanted = self._wanted(prompt)
         return wanted is None or motion.seconds < LEAST or wanted(measure(motion))
-
-    def _better(self, prompt: str, old: Motion, new: Motion) -> Motion:
-        return new if self._does(prompt, new) and not self._does(prompt, old) else old
 
     def _miss(self, clause: Clause, frames: float) -> Miss | None:
         """How far a passage of so many frames is from showing its clause and ending at rest."""
@@ -307,7 +307,7 @@ class SentenceGenerator:
 
     def _scope_result(self, text: str) -> ScopeResult | None:
         if text not in self._scoped:
-            self._scoped[text] = self.generator.read(text)
+            [self._scoped[text]] = self.generator.read([text])
         return self._scoped[text]
 
     def _is_whole(self, prompt: str, seconds: float) -> bool:

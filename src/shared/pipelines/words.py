@@ -330,6 +330,8 @@ def _whole(word: str) -> tuple[str, str, str]:
 
 def _loosely(word: str) -> str:
     """The pattern of a word, whose accents may be missing."""
+    if word.isascii() and word.isalpha():
+        return word
     pattern = re.sub("[à-öø-ÿ]", lambda each: f"[{each[0]}{bare(each[0])}]", re.escape(word))
     pattern = pattern.replace("ß", "(?:ß|ss)").replace("'", "['’]").replace(r"\ ", r"\s+")
     return pattern.replace(r"\*", f"{_LETTER}+")
@@ -369,6 +371,8 @@ def _said(text: str) -> tuple[str, frozenset[str]]:
 
 def bare(word: str) -> str:
     """A word without case and accents, its apostrophes straight."""
+    if word.isascii():
+        return word.casefold()
     letters = unicodedata.normalize("NFD", word.casefold().replace("’", "'").replace("ı", "i"))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
@@ -516,6 +520,12 @@ def value_of(text: str) -> float:
 
 def _value_of_sign(sign: str) -> int:
     return 2 if sign == "两" else _ONES.index(sign) + 1
+
+
+def measure_of(unit: str, text: str, least: float) -> re.Match[str] | None:
+    """The first measure in a text that is so large."""
+    found = all_words().units[unit].finditer(text)
+    return next((each for each in found if value_of(each["number"]) >= least), None)
 
 
 def side_of(text: str) -> str:

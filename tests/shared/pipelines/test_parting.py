@@ -280,5 +280,5 @@ def test_a_single_sentence_stays_whole(sentence: str, sentences: SentenceGenerat
 @pytest.mark.parametrize(("sentence", "action"), DENIED)
 def test_what_is_denied_is_not_asked_for(sentence: str, action: str, sentences: SentenceGenerator):
     (clause,) = sentences.clauses(sentence)
-    found = sentences.generator.read(clause.text)
+    [found] = sentences.generator.read([clause.text])
     assert found is not None and found.nearest[0] == action

@@ -3,7 +3,7 @@
 Letters: B batch, L tokens, D embed dim.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,10 +35,10 @@ class TextFeatures:
         """The same on another device."""
         return self._each(lambda values: values.to(device))
 
-    def rows(self) -> Iterator[tuple[np.ndarray, float | None]]:
+    def rows(self) -> list[tuple[np.ndarray, float | None]]:
         """Of each text its embedding [D] and its closeness, on the CPU."""
         closeness = [None] * len(self) if self.closeness is None else self.closeness.tolist()
-        yield from zip(self.pooled.cpu().numpy(), closeness, strict=True)
+        return list(zip(self.pooled.cpu().numpy(), closeness, strict=True))
 
     def _each(self, change: Callable[[Tensor], Tensor]) -> "TextFeatures":
         parts = (None if each is None else change(each) for each in vars(self).values())

@@ -373,16 +373,16 @@ class TextToMotion:
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
-    def read(self, prompt: str) -> ScopeResult | None:
-        """What a prompt asks for, as far as the model knows; None where it has not learned that."""
-        if self.scope is None or not prompt:
-            return None
-        [row] = self.encode_prompts([prompt]).rows()
-        return self.scope.check(prompt, *row)
+    def read(self, prompts: Sequence[str]) -> list[ScopeResult | None]:
+        """What prompts ask for, as far as the model knows; None where it has not learned that."""
+        if self.scope is None or not all(prompts):
+            return [None] * len(prompts)
+        rows = zip(prompts, self.encode_prompts(prompts).rows(), strict=True)
+        return [self.scope.check(prompt, *row) for prompt, row in rows]
 
     def begins_standing(self, prompt: str) -> bool:
         """Whether what a prompt asks for is done from a standing body to a standing one."""
-        found = self.read(prompt)
+        [found] = self.read([prompt])
         return bool(found and self.scope and set(found.nearest[:1]) & set(self.scope.gestures))
 
     def style_of(self, prompt: str) -> np.ndarray | None:
