@@ -102,12 +102,28 @@ def _round_waltz() -> tuple[Landing, ...]:
     """Six steps round the middle, once round."""
     found = []
     for count, foot in enumerate("LRLRLR"):
-        heading = np.radians(60.0 * (count + 1))
         side, ahead = 0.1 if foot == "L" else -0.1, 0.16 if count % 3 == 0 else 0.06
-        left = side * np.cos(heading) + ahead * np.sin(heading)
-        forward = ahead * np.cos(heading) - side * np.sin(heading)
-        found.append(Landing(foot, float(left), float(forward), 60.0 * (count + 1)))
+        found.append(_turned(foot, side, ahead, 60.0 * (count + 1)))
     return tuple(found)
+
+
+def _turning_box() -> tuple[Landing, ...]:
+    """Four half boxes, ahead and back in turn, each a quarter further to the left."""
+    ahead = (("L", 0.09, 0.18), ("R", -0.22, 0.16), ("L", -0.06, 0.16))
+    back = (("R", -0.09, -0.18), ("L", 0.22, -0.16), ("R", 0.06, -0.16))
+    bars = enumerate((ahead, back, ahead, back))
+    return tuple(
+        _turned(foot, left, forward, 90.0 * bar + (30.0, 75.0, 90.0)[count])
+        for bar, steps in bars for count, (foot, left, forward) in enumerate(steps)
+    )  # fmt: skip
+
+
+def _turned(foot: str, left: float, forward: float, degrees: float) -> Landing:
+    """A landing as who has turned so far to the left sees it."""
+    heading = np.radians(degrees)
+    across = left * np.cos(heading) + forward * np.sin(heading)
+    along = forward * np.cos(heading) - left * np.sin(heading)
+    return Landing(foot, float(across), float(along), degrees)
 
 
 def _cycle(
@@ -180,28 +196,38 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", 0.09, 0.32), ("R", -0.24, 0.32), ("L", -0.07, 0.32),
                ("R", -0.24, 0), ("L", 0.09, 0), ("R", -0.09, 0)),
-        ("flow", "bloom", "waist", "fan"), bounce=0.02, rise=0.035, hips=3.0, sway=8.0,
+        ("hold", "hold", "flow", "hold"), bounce=0.03, rise=0.05, hips=3.0, sway=8.0,
     ),
     Steps(
-        "waltz", 3,
+        "balance step", 3,
         _cycle(("L", 0.32, 0), ("r", 0.14, -0.26), None,
                ("R", -0.32, 0), ("l", -0.14, -0.26), None),
         ("sweep", "fan", "gather", "bloom"), bounce=0.02, rise=0.0, hips=4.0,
         dips=(0.02, 0.22, 0.14), leans=(0, 22, 10), sway=10.0,
     ),
     Steps(
-        "waltz", 3, _round_waltz(), ("waist", "bloom", "fan"),
-        bounce=0.015, rise=0.03, turned=360.0, hips=3.0,
+        "waltz", 3, _round_waltz(), ("hold",),
+        bounce=0.025, rise=0.045, turned=360.0, hips=3.0, sway=4.0,
+    ),
+    Steps(
+        "waltz", 3, _turning_box(), ("hold", "hold", "flow"),
+        bounce=0.03, rise=0.05, turned=360.0, hips=3.0, sway=6.0,
     ),
     Steps(
         "waltz", 3,
+        _cycle(("L", 0.12, 0.26), ("r", -0.06, 0.24), None,
+               ("R", -0.12, -0.2), ("l", 0.06, -0.18), None),
+        ("hold", "flow"), bounce=0.02, rise=0.04, hips=3.0, sway=6.0, leans=(4, 0, 0, -4, 0, 0),
+    ),
+    Steps(
+        "balance step", 3,
         _cycle(("L", 0.08, 0.3), ("r", -0.08, 0.75, 0.36), None,
                ("R", -0.08, -0.05), ("l", 0.1, -0.55, 0.42), None),
         ("bloom", "sweep", "fan", "flow"), bounce=0.015, rise=0.02, hips=4.0,
         leans=(0, -14, -8, 0, 34, 24),
     ),
     Steps(
-        "waltz", 3,
+        "balance step", 3,
         _cycle(("L", 0.46, 0.02), None, ("R", 0.3, 0.0), ("R", -0.46, 0.02), None, ("L", -0.3, 0)),
         ("sweep", "gather", "fan"), bounce=0.01, rise=0.0, hips=3.0, dips=(0.16, 0.22, 0.0),
         leans=(4, 10, 0), sway=16.0,
@@ -210,18 +236,17 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", -0.16, 0.2), ("R", -0.3, 0.04), ("L", -0.12, 0.0),
                ("R", 0.16, 0.2), ("L", 0.3, 0.04), ("R", 0.12, 0.0)),
-        ("flow", "gather", "waist", "sweep"), bounce=0.02, rise=0.03, hips=4.0, sway=12.0,
-        dips=(0.1, 0.0, 0.0),
+        ("hold", "flow"), bounce=0.03, rise=0.045, hips=4.0, sway=10.0,
     ),
     Steps(
-        "waltz", 3,
+        "balance step", 3,
         _cycle(("L", 0.1, 0), ("r", -0.5, 0.1, 0.34), None,
                ("R", -0.1, 0), ("l", 0.5, 0.1, 0.34), None),
         ("gather", "sweep", "bloom"), bounce=0.02, rise=0.02, hips=8.0, dips=(0.08, 0.0, 0.0),
         sway=-14.0,
     ),
     Steps(
-        "waltz", 3,
+        "balance step", 3,
         _cycle(("L", 0.1, -0.2), ("r", -0.08, 0.2), None, ("R", -0.1, 0.1), ("L", 0.1, 0.12), None),
         ("flow", "gather", "bloom"), bounce=0.01, rise=0.0, hips=3.0,
         dips=(0.04, 0.18, 0.2, 0.02, 0.0, 0.0), leans=(6, 44, 50, 10, -8, -10),
@@ -480,6 +505,13 @@ def _waist(sign: float, time: Array, own: Array, up: Array) -> Angles:
     return {"flex": 4 - 16 * own, "abduct": 40 + 8 * up, "elbow": 98 - 8 * up, "twist": -36.0}
 
 
+def _hold(sign: float, time: Array, own: Array, up: Array) -> Angles:
+    """As if round a partner: elbows out at the height of the shoulders, forearms ahead."""
+    return {
+        "flex": 38.0, "abduct": 62 + 6 * up, "elbow": 86.0 - 6 * up, "twist": -25.0, "wrist": 8.0,
+    }  # fmt: skip
+
+
 def _gather(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """Crossed low before the body, then wide open and high, once in two bars of three."""
     wide = min_jerk(0.5 - 0.5 * _wave(time, 6))
@@ -522,5 +554,5 @@ def _sweep(sign: float, time: Array, own: Array, up: Array) -> Angles:
 ARMS: dict[str, Arms] = {
     "swing": _swing, "open": _open, "reach": _reach, "circle": _circle, "high": _high,
     "push": _push, "flow": _flow, "waist": _waist, "bloom": _bloom, "sweep": _sweep,
-    "gather": _gather, "fan": _fan,
+    "gather": _gather, "fan": _fan, "hold": _hold,
 }  # fmt: skip
