@@ -196,7 +196,7 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", 0.09, 0.32), ("R", -0.24, 0.32), ("L", -0.07, 0.32),
                ("R", -0.24, 0), ("L", 0.09, 0), ("R", -0.09, 0)),
-        ("hold", "hold", "flow", "hold"), bounce=0.03, rise=0.05, hips=3.0, sway=8.0,
+        ("hold", "bloom", "hold", "flow"), bounce=0.03, rise=0.05, hips=3.0, sway=8.0,
     ),
     Steps(
         "balance step", 3,
@@ -206,18 +206,18 @@ STEPS = (
         dips=(0.02, 0.22, 0.14), leans=(0, 22, 10), sway=10.0,
     ),
     Steps(
-        "waltz", 3, _round_waltz(), ("hold",),
+        "waltz", 3, _round_waltz(), ("hold", "hold", "bloom"),
         bounce=0.025, rise=0.045, turned=360.0, hips=3.0, sway=4.0,
     ),
     Steps(
-        "waltz", 3, _turning_box(), ("hold", "hold", "flow"),
+        "waltz", 3, _turning_box(), ("hold", "flow", "hold", "bloom"),
         bounce=0.03, rise=0.05, turned=360.0, hips=3.0, sway=6.0,
     ),
     Steps(
         "waltz", 3,
         _cycle(("L", 0.12, 0.26), ("r", -0.06, 0.24), None,
                ("R", -0.12, -0.2), ("l", 0.06, -0.18), None),
-        ("hold", "flow"), bounce=0.02, rise=0.04, hips=3.0, sway=6.0, leans=(4, 0, 0, -4, 0, 0),
+        ("flow", "hold", "gather"), bounce=0.02, rise=0.04, hips=3.0, sway=6.0, leans=(4, 0, 0, -4, 0, 0),
     ),
     Steps(
         "balance step", 3,
@@ -236,7 +236,7 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", -0.16, 0.2), ("R", -0.3, 0.04), ("L", -0.12, 0.0),
                ("R", 0.16, 0.2), ("L", 0.3, 0.04), ("R", 0.12, 0.0)),
-        ("hold", "flow"), bounce=0.03, rise=0.045, hips=4.0, sway=10.0,
+        ("hold", "sweep", "flow"), bounce=0.03, rise=0.045, hips=4.0, sway=10.0,
     ),
     Steps(
         "balance step", 3,

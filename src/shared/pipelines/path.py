@@ -567,12 +567,14 @@ def turned(
     return given
 
 
-def on_the_spot(turned: Constraint) -> Constraint:
-    """A led turn whose place is known from where it begins: who walked has come to a stop."""
-    first = int(torch.nonzero(turned.values[:, ROOT_ROW, YAW_RATE])[0, 0])
-    turned.values[first:, ROOT_ROW, [FORWARD, LATERAL]] = 0.0
-    turned.known[first:, ROOT_ROW, [FORWARD, LATERAL]] = True
-    return turned
+def on_the_spot(given: Constraint) -> Constraint:
+    """A motion whose place is known, a led turn's from where it begins: who walked has come to a
+    stop."""
+    turning = torch.nonzero(given.values[:, ROOT_ROW, YAW_RATE])
+    first = int(turning[0, 0]) if len(turning) else 0
+    given.values[first:, ROOT_ROW, [FORWARD, LATERAL]] = 0.0
+    given.known[first:, ROOT_ROW, [FORWARD, LATERAL]] = True
+    return given
 
 
 def circled(degrees: float, fps: float, seconds: float) -> Constraint:

@@ -84,7 +84,7 @@ class Clause:
         text: the sentence's own words for it, without the measures below.
         count: how often.
         degrees: to turn, positive to the left; None where nothing is said.
-        metres: to go.
+        metres: to go; 0 = on the spot.
         seconds: to go on.
         steps: to take; None where nothing is said.
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
@@ -128,17 +128,14 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     one clause, with what the arms do meanwhile.
     """
     words, found = all_words(), list[Clause]()
-    learned = {
-        name: own for name, (own, said) in PLAINLY.items() if read(said).action == own.action
-    }
+    learned = {name: own for name, (own, said) in PLAINLY.items() if own.action == read(said)[0]}
     stands = "ups" in learned
 
     def known(text: str) -> Reading:
         own = (learned[name] for name in learned if vars(words)[name].fullmatch(text))
         return next(own, None) or read(_bared(text, read))
 
-    text = _staying(plain_text(tidied(sentence)), known)
-    for whole in _ordered(text, known):
+    for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
         pieces = _joined(whole, known)
         last = found[-1] if found else None
         while pieces:
@@ -170,6 +167,9 @@ def _plainly(clause: Clause, learned: Collection[str], read: Read, *, alone: boo
         text = words.bends.sub(f"turns {side_of(text)}", text)
     if "posed" in learned and words.posed.fullmatch(arms) and _surely(read(arms)) != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
+    spot = None if clause.far else words.in_place.search(text)
+    if spot and _surely(read(rest := _without(text, spot))) in GOING:
+        text, clause = rest, replace(clause, metres=0.0)
     return replace(clause, text=text, meanwhile=arms)
 
 

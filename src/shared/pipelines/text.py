@@ -54,7 +54,7 @@ from .path import (
     on_the_spot,
     time_path,
     turned,
-)
+)  # fmt: skip
 from .sentence import GOING, LOW, PLAIN, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
@@ -179,7 +179,7 @@ class SentenceGenerator:
         for index in plain:  # what no sample helped, unless it is warned of already
             lines = [self.missed(asked[index], motion) for motion in made[index]]
             found = self._scope_result(prompts[index])
-            if all(lines) and found is not None and found.known:
+            if all(lines) and found and found.known and not any(self._warnings(asked[index])):
                 log.warning("%s", lines[0])
         return [replace(m, text=text) for index, text in enumerate(asked) for m in made[index]]
 
@@ -228,7 +228,7 @@ class SentenceGenerator:
         if len(texts) > 1 or not (parts[0].plain or lines == [None]):
             lines = self.generator.scope_warnings(texts, again=again)
         scope = self.generator.scope
-        return [line or unlearned(text, scope) for text, line in zip(texts, lines, strict=True)]
+        return [unlearned(text, scope) or line for text, line in zip(texts, lines, strict=True)]
 
     # ------------------------------------------------------------ one sentence
 
@@ -349,16 +349,11 @@ class SentenceGenerator:
         return self._bent[text]
 
     def _one(
-        self,
-        prompt: str,
-        seconds: float,
-        tag: str | None,
-        sampling: Sampling,
-        foot_lock: bool | None,
+        self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None
     ) -> Motion:
-        parts = self.clauses(prompt)
+        parts = self.clauses(text)
         stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
-        return self._motion(parts, stretches, prompt, sampling, foot_lock)
+        return self._motion(parts, stretches, text, sampling, lock)
 
     def timeline(
         self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
@@ -574,8 +569,10 @@ class SentenceGenerator:
     ) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own; in its
         seconds, unless nobody goes so fast and it is not `timed`."""
+        if not clause.metres:
+            return on_the_spot(Constraint.free(passage.frames))
         speed, facing, *_ = natural_gait(self.generator, passage, sampling)
-        ahead = np.array([[0.0, 0.0], [0.0, clause.metres or 0.0]])
+        ahead = np.array([[0.0, 0.0], [0.0, clause.metres]])
         fps, seconds = self.card.fps, clause.seconds
         last = None if seconds is None else max(seconds * fps - 1, 1) / fps
         pace = partial(time_path, DrawnPath(ahead), fps=fps, speed=speed, facing=facing)

@@ -161,8 +161,9 @@ class Words:
         # "right at the corner", but "a right at the corner", "turns right at the corner"
         apart = "".join(rf"(?<!(?<!{_LETTER}){word}\s)" for word in all_of("to_side"))
         self.no_side = re.compile(apart + _any(all_of("no_side")), re.I)
-        self.left, self.right, self.round, self.corner = (
-            re.compile(_any(all_of(key)), re.I) for key in ("left", "right", "round", "corners")
+        self.left, self.right, self.round, self.corner, self.uncounted = (
+            re.compile(_any(all_of(key)), re.I)
+            for key in ("left", "right", "round", "corners", "uncounted")
         )
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
@@ -225,8 +226,7 @@ class Words:
         amount = rf"(?:{_DIGITS}|{_any([*numbers, *fractions])})[\s-]*{lasting}"
         ends = rf"(?:{ends}|(?=\s*{_lead()}{amount}))"
         self.halts = Rare(rf"{further}{halts}{ends}", all_of("halts"))
-        alone = rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$"
-        self.halt_alone = Rare(alone, all_of("halts"))
+        self.halt_alone = Rare(rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$", all_of("halts"))
         self.crouches = Rare(_any(all_of("crouches")), all_of("crouches"))
         self.head_turns = Rare(_any(all_of("head_turns")), all_of("head_turns"))
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
@@ -258,7 +258,6 @@ class Words:
         held = rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}"
         self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
         self.arms = re.compile(_any(all_of("limbs")), re.I)
-        self.uncounted = re.compile(_any(all_of("uncounted")), re.I)
         self.about = re.compile(_any(all_of("about")), re.I)
         refused = rf"{_any(all_of('refuses'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
@@ -280,6 +279,7 @@ class Words:
         self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
+        self.in_place = Rare(_any(all_of("in_place")), all_of("in_place"))
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
         several = [word for word, value in numbers.items() if value > 1]
@@ -493,6 +493,7 @@ def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
     if words.startswith(" "):  # as it is written, to the end of its last word
         last = first + len(words.split())
         words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
+        words = re.sub(" (a|the)$", "", words)
     return _not_learned(text, f"for {words!r}")
 
 

@@ -37,7 +37,7 @@ export class Director {
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
     let lines = texts.length === 1 ? [this.scope.warning(this.reader.whole(prompt, parts))] : []; // known without its measures, or with them
     if (texts.length > 1 || !(isPlain(parts[0]) || lines[0] === null)) lines = texts.map((text) => this.scope.warning(text));
-    return lines.find(Boolean) ?? texts.map((text) => this.unlearned(text)).find(Boolean) ?? null;
+    return texts.map((text, i) => this.unlearned(text) ?? lines[i]).find(Boolean) ?? null;
   }
 
   /** A line if a text asks for what is none of a model's actions, whatever else it asks for. */
@@ -55,7 +55,7 @@ export class Director {
     const [first, words] = found.reduce((a, b) => (b[0] < a[0] || (b[0] === a[0] && b[1].length > a[1].length) ? b : a));
     if (!words.startsWith(" ")) return line(`for “${words}”`);
     const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]);
-    return line(`for “${plain(text).slice(spans[first][0], spans[first + countOf(words) - 1][1])}”`);
+    return line(`for “${plain(text).slice(spans[first][0], spans[first + countOf(words) - 1][1]).replace(/ (?:a|the)$/, "")}”`);
   }
 
   /**
@@ -207,6 +207,11 @@ export class Director {
       if (!clause.held) return { passage: { text: CLAPS, frames, afresh: this.beginsStanding(CLAPS), miss: this.miss(clause, frames) } };
     }
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
+    if (clause.metres === 0) {
+      const given = freeConstraint(Math.max(1, round(seconds * FPS)));
+      for (let at = ROOT; at < given.values.length; at += WIDTH) given.known[at + FORWARD] = given.known[at + LATERAL] = 1; // on the spot
+      return led(given);
+    }
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
       const last = clause.seconds === null ? null : Math.max(clause.seconds * FPS - 1, 1) / FPS;

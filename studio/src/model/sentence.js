@@ -114,6 +114,11 @@ export class SentenceReader {
       text = text.replace(this.first.bends, `turns ${this.sideOf(text)}`);
     if (this.entire.posed.test(meanwhile) && this.learned("posed") && surely(this.plainRead(meanwhile)) !== "raise")
       meanwhile = `raises ${clause.side} arm${clause.side === "both" ? "s" : ""}`;
+    const spot = isFar(clause) ? null : this.first.in_place.exec(text);
+    if (spot) {
+      const rest = this.without(text, spot);
+      if (GOING.includes(surely(this.plainRead(rest)))) return { ...clause, text: rest, meanwhile, metres: 0 };
+    }
     return { ...clause, text, meanwhile };
   }
 

@@ -26,6 +26,7 @@ from src.shared.pipelines.ranking import PromptSampler, TextJudge
 from src.shared.pipelines.stream import Passage
 from src.shared.pipelines.text import INSISTING, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline
+from src.shared.pipelines.words import STANDS
 from tests.shared.model.conftest import tiny_generator
 
 
@@ -91,6 +92,27 @@ def test_steps_take_the_time_of_the_pace(
     assert frames[0] <= motion.num_frames <= frames[1]
 
 
+@pytest.mark.parametrize(
+    "text", ["a jogger runs in place", "il court sur place", "ein Mann geht auf der Stelle",
+             "男がその場で走る", "一个人原地跑步", "un hombre corre en el sitio"]
+)  # fmt: skip
+def test_who_goes_in_place_stays_there(starter: TextToMotion, text: str):
+    """Ten metres of running, before, without a word."""
+    sentences = SentenceGenerator(starter)
+    (clause,) = sentences.clauses(text)
+    assert clause.metres == 0 and sentences.scope_warnings([text]) == [None]
+    (motion,) = sentences.generate([text], seconds=3.0, steps=2)
+    assert np.ptp(motion.root_position[:, [0, 2]], axis=0).max() < 0.05
+    ankles = motion.positions()[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]], 1]
+    assert np.ptp(ankles, axis=0).max() > 0.03
+
+
+def test_what_stays_anyway_is_no_measure(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    for text in ("a person jumps in place", "a person turns left on the spot"):
+        assert [clause.metres for clause in sentences.clauses(text)] == [None]
+
+
 def test_a_measure_is_no_cause_for_a_warning(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     plain = sentences.scope_warnings(["a person walks forward"])
@@ -154,6 +176,15 @@ def test_what_is_held_stays(starter: TextToMotion):
     (walk,) = made.generate(["walks forward and stops"], seconds=3)
     steps = np.linalg.norm(np.diff(walk.root_position[:, [0, 2]], axis=0), axis=-1) * 30
     assert steps[:60].mean() > 0.9 and steps[-20:].mean() < 0.2
+
+
+@pytest.mark.parametrize(
+    "text", ["an old man slowly sits down", "a man sits down slowly", "老人慢慢地坐下",
+             "un anciano se sienta despacio", "sie setzt sich langsam", "elle s'assoit lentement"]
+)  # fmt: skip
+def test_who_sits_down_slowly_sits_down(starter: TextToMotion, text: str):
+    first, last = SentenceGenerator(starter).clauses(text)
+    assert first.text == STANDS and SentenceGenerator(starter)._nearest(last.text) == "sit"
 
 
 def test_who_sits_down_stands_before_and_does_not_fall(starter: TextToMotion):

@@ -134,6 +134,19 @@ def test_what_nobody_taught_is_told_as_by_the_command(
     )
 
 
+@BROWSER
+def test_who_runs_in_place_does_so_as_on_the_command_line(
+    browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    made(browser, "{ blocks: [{ text: 'a jogger runs in place', seconds: 2 }], seed: 3 }")
+    [wanted] = generator.generate(
+        ["a jogger runs in place"], seconds=2.0, sampling=Sampling(seed=3)
+    )
+    assert_same(exported(browser, tmp_path), read_motion(write_bvh(wanted, tmp_path / "a.bvh")))
+    assert text_of(browser, "warnings") == ""
+
+
+@BROWSER
 @pytest.mark.parametrize("language", PROMPTS)
 def test_a_sentence_gives_what_the_command_line_gives(
     language: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
