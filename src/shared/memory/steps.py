@@ -217,7 +217,8 @@ STEPS = (
         "waltz", 3,
         _cycle(("L", 0.12, 0.26), ("r", -0.06, 0.24), None,
                ("R", -0.12, -0.2), ("l", 0.06, -0.18), None),
-        ("flow", "hold", "gather"), bounce=0.02, rise=0.04, hips=3.0, sway=6.0, leans=(4, 0, 0, -4, 0, 0),
+        ("flow", "hold", "gather"), bounce=0.02, rise=0.04, hips=3.0, sway=6.0,
+        leans=(4, 0, 0, -4, 0, 0),
     ),
     Steps(
         "balance step", 3,

@@ -285,7 +285,8 @@ class SentenceGenerator:
                 # whose height drifts by centimetres seems to fly.
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
-            if clause.count > 1 and (count := repetitions(action, seen, side)) is not None:
+            several = clause.count > 1 or frames <= ONCE[1] * fps
+            if several and (count := repetitions(action, seen, side)) is not None:
                 found = abs(count - round(clause.count * len(features) / frames))
             uneasy = rests and len(features) >= frames and not ends_at_rest(motion)
             return found + UNEASY * uneasy
@@ -352,7 +353,9 @@ class SentenceGenerator:
         self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None
     ) -> Motion:
         parts = self.clauses(text)
-        stretches = [self._stretch(part, seconds, tag, sampling) for part in parts]
+        once = min(seconds, ONCE[1]) if len(parts) > 1 else seconds  # of several, each is done once
+        times = [once if self._nearest(part.text) in REPETITIONS else seconds for part in parts]
+        stretches = [self._stretch(p, s, tag, sampling) for p, s in zip(parts, times, strict=True)]
         return self._motion(parts, stretches, text, sampling, lock)
 
     def timeline(

@@ -124,7 +124,10 @@ export class Director {
 
   async clausesOf(prompt, parts, seconds, seed, options) {
     const stretches = [];
-    for (const part of parts) stretches.push(await this.stretch(part, seconds, seed));
+    for (const part of parts) {
+      const once = parts.length > 1 && this.nearest(part.text) in REPETITIONS; // of several, each is done once
+      stretches.push(await this.stretch(part, once ? Math.min(seconds, ONCE[1]) : seconds, seed));
+    }
     return this.performed(parts, stretches, prompt, seed, options);
   }
 
@@ -348,7 +351,7 @@ export class Director {
     if (wanted === null && !rests) return null;
     return (features) => {
       const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
-      const count = clause.count > 1 ? repetitions(action, seen, side) : null;
+      const count = clause.count > 1 || frames <= ONCE[1] * FPS ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));
       if (found && made > latest) // one bad window is none of those that follow, and feet are cleaned up yet
         found = Number(!wanted(measure(postProcess(cut(features, made - latest, made), this.settings.post, {}))));

@@ -463,6 +463,17 @@ def test_the_others_are_left_out_unless_asked_for() -> None:
     assert result.all_candidates is None and len(result.table.order) == 2
 
 
+def test_what_follows_something_is_done_once(starter: TextToMotion) -> None:
+    """In four seconds of their own people jumped twice in four of ten sequences."""
+    sentences, once = SentenceGenerator(starter), 0
+    for seed in range(3):
+        (motion,) = sentences.generate(["a man walks forward, then jumps"], seed=seed)
+        jump = motion.frames(round(4.0 * motion.fps), motion.num_frames)
+        assert jump.num_frames == round(3.0 * motion.fps)
+        once += measure(jump).jumps == 1
+    assert once >= 2
+
+
 @pytest.mark.parametrize("seconds", [3.0, 4.0, 5.0, 9.0])
 def test_uncounted_claps_take_the_seconds_that_they_are_given(
     starter: TextToMotion, seconds: float

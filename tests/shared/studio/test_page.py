@@ -135,13 +135,12 @@ def test_what_nobody_taught_is_told_as_by_the_command(
 
 
 @BROWSER
-def test_who_runs_in_place_does_so_as_on_the_command_line(
-    browser: Browser, generator: MotionGenerator, tmp_path: Path
+@pytest.mark.parametrize("prompt", ["a jogger runs in place", "she walks forward, then jumps"])
+def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
+    prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
 ) -> None:
-    made(browser, "{ blocks: [{ text: 'a jogger runs in place', seconds: 2 }], seed: 3 }")
-    [wanted] = generator.generate(
-        ["a jogger runs in place"], seconds=2.0, sampling=Sampling(seed=3)
-    )
+    made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 4 }}], seed: 3 }}")
+    [wanted] = generator.generate([prompt], seconds=4.0, sampling=Sampling(seed=3))
     assert_same(exported(browser, tmp_path), read_motion(write_bvh(wanted, tmp_path / "a.bvh")))
     assert text_of(browser, "warnings") == ""
 
