@@ -38,7 +38,7 @@ SENTENCES = (
     "a person dances", "a happy person dances", "a calm person dances", "a person dances salsa",
     "a person breakdances", "a person dances an Indian dance", "a person dances ballet",
     "a person dances like Michael Jackson", "a person dances a waltz", "an old man dances",
-    "a sad person dances",
+    "a sad person dances", "a proud person dances", "a tired person dances",
 )  # fmt: skip
 MADE, SLOW, SAMPLE_RATE = ("synthetic", "threes", "slow"), (52.0, 58.0, 63.0, 68.0), 44_100
 NEAR_SEAM, MOVES = 8, 0.1  # frames, m/s
