@@ -144,7 +144,7 @@ def evaluate_audio(
       motion-tools evaluate-audio --model starter-audio --data data/pairs --songs music
     """
     request = Request.of({**locals(), "decoder": decoder_checkpoint})
-    show_report(run(model, request, out), json=json)
+    show_report(run(model, request, out, "audio"), json=json)
 
 
 # ---------------------------------------------------------------- running
@@ -161,9 +161,10 @@ def run(model: str, request: Request, out: Path | None, suite: str | None = None
     folder = out or Path("outputs/evaluation") / Path(model).name
     check(request, folder)
     audio = read_card(resolve_model(model)).kind == AUDIO_KIND
-    if audio and suite is not None:
+    if suite is not None and suite != ("audio" if audio else "text"):
         raise UsageError(
-            f"--suite {suite} is not for {model}, which makes motion from music; leave --suite out"
+            f"{model} makes motion from {'music' if audio else 'text'}; name one that makes it"
+            f" from {'text, starter' if audio else 'music, starter-audio'} for example"
         )
     refuse(model, audio, request)
 

@@ -232,6 +232,7 @@ def calibrate(
             f"--model {model} is no model folder of yours, and what ships is not written to; name"
             " a folder of `train generation`, or copy one"
         )
+    options.check_folder("--model", model)
 
     from ..shared.data.prepared import PreparedData
     from ..shared.data.text_motion import arm_actions, gestures, still_actions

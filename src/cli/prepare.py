@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..shared.data.prepared import PreparedData
 
 CHROMA = ("fast", "cqt")
+MOST_NEW = 4  # actions that are named as new to the model that ships
 
 
 def prepare(
@@ -101,15 +102,20 @@ def prepare(
         if not folder.from_names:
             continue
         said = {file: " ".join(words(Path(file).stem)) for file in folder.wordless()}
+        none = f"no captions for {folder.root}"
+        remedy = "give --captions"
+        if captions:
+            tables = ", ".join(map(str, captions))
+            none, remedy = f"{tables} names no file of {folder.root}", "mend the names in it"
         if named := [file for file, text in said.items() if text]:
             complain(
-                f"warning: no captions for {folder.root}: {counted(len(named), 'file')} get the"
-                f" words of their names, e.g. {named[0]}: {said[named[0]]!r}; give --captions"
+                f"warning: {none}: {counted(len(named), 'file')} get the words of their names,"
+                f" e.g. {named[0]}: {said[named[0]]!r}; {remedy}"
             )
         if silent := [file for file, text in said.items() if not text]:
             complain(
-                f"warning: no captions for {folder.root}, and no words in the names of"
-                f" {counted(len(silent), 'file')}, e.g. {silent[0]}, left out; give --captions"
+                f"warning: {none}, and no words in the names of"
+                f" {counted(len(silent), 'file')}, e.g. {silent[0]}, left out; {remedy}"
             )
     sources: list[Source] = [*folders]
     if synthetic:
@@ -146,18 +152,23 @@ def prepare(
 
 def print_summary(report: dict[str, Any], out: Place) -> None:
     """What was made, what was left out, and what to do next."""
+    from ..shared.environment import TEXT_MODEL
+    from ..shared.model.checkpoint import read_card, resolve_model
+
     minutes = report["seconds"] / 60
     print(f"{report['clips']} clips, {minutes:.1f} minutes, {report['groups']} label groups: {out}")
     print("  by source:", ", ".join(f"{k} {v}" for k, v in report["by_source"].items()))
     print("  by split: ", ", ".join(f"{k} {v}" for k, v in report["by_split"].items()))
     if skipped := report["skipped"]:
         tell(f"{len(skipped)} clips were left out; {out / 'report.json'} says why, e.g.:")
-        for entry in skipped[:3]:
+        for entry in sorted(skipped, key=lambda entry: "no caption" in entry["reason"])[:3]:
             tell(f"  {entry['clip']}: {entry['reason']}")
     print(f"next: motion-tools train clip --data {out} --output runs/clip")
-    if len(actions := report["actions"]) == 1 and actions[0]:
-        teach = f"motion-tools train action --data {out} --init starter --output runs/action"
-        print(f"  or, to teach {actions[0]!r} to the model that ships: {teach}")
+    known = read_card(resolve_model(TEXT_MODEL)).tags
+    new = [action for action in report["actions"] if action not in known]
+    if 0 < len(new) <= MOST_NEW and all(new):
+        teach = f"motion-tools train action --data {out} --init {TEXT_MODEL} --output runs/action"
+        print(f"  or, to teach {' and '.join(map(repr, new))} to the model that ships: {teach}")
 
 
 def prepare_audio(

@@ -38,6 +38,15 @@ def test_a_suite_that_is_not_there_is_named() -> None:
     assert "--suite video is unknown" in result.stderr and "requests" in result.stderr
 
 
-def test_the_suite_of_text_is_not_for_a_model_of_music() -> None:
-    result = runner.invoke(app, ["evaluate", "--suite", "text", "--model", "starter-audio"])
-    assert result.exit_code == 2 and "--suite text is not for starter-audio" in result.stderr
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        (["evaluate", "--suite", "text", "--model", "starter-audio"], "from text, starter for"),
+        (["evaluate-audio", "--model", "starter"], "from music, starter-audio for"),
+    ],
+)
+def test_a_suite_of_the_other_kind_names_a_model_of_its_own(
+    arguments: list[str], line: str
+) -> None:
+    result = runner.invoke(app, arguments)
+    assert result.exit_code == 2 and line in result.stderr

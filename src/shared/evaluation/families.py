@@ -49,9 +49,9 @@ def r_precision(sample: MotionSample, seed: int) -> np.ndarray:
 
 
 def _guo(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, Value]:
-    """R-precision needs a batch."""
+    """R-precision needs a batch, and more groups than answers that are looked at."""
     found: dict[str, Value] = {}
-    if len(sample) >= BATCH:
+    if len(sample) >= BATCH and len(set(sample.clips.groups)) > max(retrieval.TOP):
         at = r_precision(sample, seed).mean(1).tolist()
         found = {f"r_at_{k}": value for k, value in zip(retrieval.TOP, at, strict=True)}
     apart = sample.text.astype(np.float64) - sample.motion.astype(np.float64)

@@ -19,7 +19,12 @@ _CLIP_KEYS = ("clip", "file", "id", "name")
 _CAPTION_KEYS = ("caption", "text", "description")
 LABEL_KEYS = ("action", "side", "direction", "count", "turn", "angle", "speed", "style", "kind",
               "terrain")  # fmt: skip
-SIDES = ("left", "right", "both")
+_VALUES = {
+    "side": ("left", "right", "both"),
+    "turn": ("left", "right"),
+    "direction": ("forward", "backward", "left", "right", "up", "down"),
+    "speed": ("slow", "normal", "fast"),
+}  # of labels; others are let through but for sides, unless they are nearly one of these
 _KEYS = {**dict.fromkeys(_CLIP_KEYS, "clip"), **dict.fromkeys(_CAPTION_KEYS, "caption")} | {
     key: key for key in ("language", "start", "end", "repeat", "hold", "provenance", *LABEL_KEYS)
 }
@@ -116,10 +121,9 @@ def _piece(path: Path, row: _Row) -> tuple[str, Piece]:
     texts = [" ".join(text.split()) for text in cells.get("caption", "").split(_OR)]
     texts = [text for text in texts if text]
     labels = {key: cells[key].strip() for key in LABEL_KEYS if cells.get(key, "").strip()}
+    labels = {key: _label(place, key, value) for key, value in labels.items()}
     if not clip or not (texts or "action" in labels):
         raise UserError(f"{place}: no clip or no caption; give both, or an action for a caption")
-    if (side := labels.get("side", "left")) not in SIDES:
-        raise UserError(f"{place}: side {side!r} is none; choose from {', '.join(SIDES)}")
     start = _number(place, "start", cells, 0.0)
     end = _number(place, "end", cells, math.inf)
     if not 0 <= start < end:
@@ -139,6 +143,21 @@ def _piece(path: Path, row: _Row) -> tuple[str, Piece]:
     last = None if end == math.inf else end
     clip = without_ending(Path(clip.replace("\\", "/")).as_posix())
     return clip, Piece(start, last, int(repeat), hold, labels, captions, provenance, told)
+
+
+def _label(place: str, key: str, value: str) -> str:
+    """A label's value as others write it. Raises UserError: it is none, or nearly another one."""
+    if key in ("count", "angle"):
+        most, what = (MAX_REPEAT, "a number of times") if key == "count" else (3600, "degrees")
+        if not (value.isascii() and value.isdigit() and 0 < int(value) <= most):
+            raise UserError(f"{place}: {key} {value!r}: write {what} in digits, 1 to {most}")
+        return str(int(value))
+    value, known = value.lower() if key in ("action", *_VALUES) else value, _VALUES.get(key, ())
+    near = get_close_matches(value, known, n=1, cutoff=0.75)
+    if value not in known and (near or key in ("side", "turn")):
+        choice = f"write {near[0]!r}" if near else f"choose from {', '.join(known)}"
+        raise UserError(f"{place}: {key} {value!r} is none; {choice}")
+    return value
 
 
 def _number(place: str, key: str, cells: dict[str, str], default: float) -> float:

@@ -300,7 +300,9 @@ class TextToMotion:
             fps=self.card.fps,
         )
         longest = max(request.frames for request in requests)
-        if warning := self.length_warning(longest / self.card.fps):
+        warning = self.length_warning(longest / self.card.fps)
+        if warning and warning not in self._told:
+            self._told.add(warning)
             log.warning("%s", warning)
         given = [each for each in constraints or [None] * len(prompts) for _ in range(num_samples)]
         _check_lengths(given, [request.frames for request in requests])

@@ -180,10 +180,27 @@ def test_a_row_that_fits_a_file_of_each_source_is_refused() -> None:
     ("text", "line"),
     [
         ("clip,action,captoin\na,walk,someone walks\n", "column 'captoin' .* to 'caption'"),
-        ("clip,caption,side\na,someone waves,lefft\n", "side 'lefft' .* choose from left"),
+        ("clip,caption,side\na,someone waves,lefft\n", "side 'lefft' is none; write 'left'"),
+        ("clip,caption,side\na,someone waves,top\n", "side 'top' .* choose from left"),
+        ("clip,action,direction\na,walk,forwrd\n", "line 2: direction .* write 'forward'"),
+        ("clip,action,speed\na,walk,fsat\n", "speed 'fsat' is none; write 'fast'"),
+        ("clip,action,angle\na,turn,ninety\n", "angle 'ninety': write degrees in digits"),
+        ("clip,action,count\na,jump,-5\n", "count '-5': write a number of times"),
+        ("clip,action,count\na,jump,2.0\n", "count '2.0'"),
     ],
 )
-def test_misspelt_columns_and_sides_are_named(tmp_path: Path, text: str, line: str) -> None:
+def test_misspelt_columns_and_labels_are_named(tmp_path: Path, text: str, line: str) -> None:
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(UserError, match=line):
         read_captions(tmp_path / "a.csv")
+
+
+def test_labels_are_written_as_others_write_them(tmp_path: Path) -> None:
+    """`Walk` was another action than `walk`, and taught beside it."""
+    (tmp_path / "a.csv").write_text(
+        "clip,action,side,direction,style,count\na,Walk,Left,around,Odd,03\n"
+    )
+    [[piece]] = read_captions(tmp_path / "a.csv").values()
+    assert piece.labels == {
+        "action": "walk", "side": "left", "direction": "around", "style": "Odd", "count": "3"
+    }  # fmt: skip
