@@ -37,8 +37,12 @@ def test_addresses_are_read_and_written(tmp_path: Path) -> None:
     assert (place("memory://prepared") / "manifest.json").is_file()
 
 
-@pytest.mark.parametrize(("actions", "taught"), [(["kata"], True), (["", "kata"], False)])
-def test_clips_of_one_action_may_be_taught_to_what_ships(
+@pytest.mark.parametrize(
+    ("actions", "taught"),
+    [(["kata"], True), (["kata", "ukemi"], True), (["kata", "walk"], True), (["walk"], False),
+     (["", "kata"], False)],
+)  # fmt: skip
+def test_clips_of_new_actions_may_be_taught_to_what_ships(
     actions: list[str], taught: bool, capsys: pytest.CaptureFixture[str]
 ) -> None:
     report = {"clips": 2, "seconds": 60.0, "groups": 1, "by_source": {}, "by_split": {}}
