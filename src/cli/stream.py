@@ -150,8 +150,8 @@ def _lines() -> Iterator[str]:
     thread waits in that one aborts."""
     try:
         source = sys.stdin.fileno()
-    except (OSError, ValueError):  # it is no file
-        yield from sys.stdin
+    except (AttributeError, OSError, ValueError):  # it is no file, or closed
+        yield from sys.stdin or ()
         return
     begun = b""
     while block := os.read(source, 1 << 16):
