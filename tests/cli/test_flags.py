@@ -86,8 +86,8 @@ FLAGS = {
     "export-onnx": "--json --model --out",
     "stream": (
         "--device --foot-lock --guidance-scale --json --model --no-foot-lock --no-real-time"
-        " --prompt --real-time --sampler --seconds --seed --steps --threads --vmc --websocket"
-        " --window"
+        " --prompt --real-time --root --sampler --seconds --seed --steps --threads --vmc"
+        " --websocket --window"
     ),
     "studio": "--json --model --no-open --out",
     "memory build": (

@@ -154,9 +154,10 @@ def _label(place: str, key: str, value: str) -> str:
         return str(int(value))
     value, known = value.lower() if key in ("action", *_VALUES) else value, _VALUES.get(key, ())
     near = get_close_matches(value, known, n=1, cutoff=0.75)
-    if value not in known and (near or key in ("side", "turn")):
-        choice = f"write {near[0]!r}" if near else f"choose from {', '.join(known)}"
-        raise UserError(f"{place}: {key} {value!r} is none; {choice}")
+    if near and value not in known:
+        raise UserError(f"{place}: {key} {value!r} is none; write {near[0]!r}")
+    if key in ("side", "turn") and value not in known:
+        raise UserError(f"{place}: {key} {value!r} is none; choose from {', '.join(known)}")
     return value
 
 
