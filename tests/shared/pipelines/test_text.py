@@ -183,7 +183,7 @@ def test_what_is_held_stays(starter: TextToMotion):
 
 @pytest.mark.parametrize(
     "text", ["an old man slowly sits down", "a man sits down slowly", "老人慢慢地坐下",
-             "un anciano se sienta despacio", "sie setzt sich langsam", "elle s'assoit lentement"]
+             "un anciano se sienta despacio", "sie setzt sich langsam hin", "elle s'assoit lentement"]
 )  # fmt: skip
 def test_who_sits_down_slowly_sits_down(starter: TextToMotion, text: str):
     first, last = SentenceGenerator(starter).clauses(text)
