@@ -149,13 +149,15 @@ def _lines() -> Iterator[str]:
     """Lines of standard input as they come, past Python's buffer: an interpreter that ends while a
     thread waits in that one aborts."""
     try:
-        source = sys.stdin.fileno()
+        source = None if os.name == "nt" else sys.stdin.fileno()  # a console there is no bytes
     except (AttributeError, OSError, ValueError):  # it is no file, or closed
+        source = None
+    if source is None:
         yield from sys.stdin or ()
         return
-    begun = b""
+    begun, encoding = b"", sys.stdin.encoding or "utf-8"
     while block := os.read(source, 1 << 16):
         *whole, begun = (begun + block).split(b"\n")
-        yield from (line.decode("utf-8", "replace") for line in whole)
+        yield from (line.decode(encoding, "replace") for line in whole)
     if begun:
-        yield begun.decode("utf-8", "replace")
+        yield begun.decode(encoding, "replace")

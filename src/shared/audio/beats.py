@@ -228,7 +228,7 @@ def tempo_path(scores: np.ndarray) -> np.ndarray:
 
 ALIKE = 0.6  # correlation after two fifths of a beat: at most .23 in 56 other songs
 FEWER = 0.7  # of a mistaken beat; longer ones are ruled out
-FAST, KICKS = 0.34, 1.8  # seconds: half of it is as far from 125 BPM; times as strong
+FAST, ALONE, KICKS = 0.34, 2.7, 1.8  # seconds: half is as far from 125 BPM; times as strong
 EDGE = 0.3  # seconds: a beat as short as the shortest is half of one that no candidate doubles
 
 
@@ -276,7 +276,7 @@ def _on_kicks(chain: np.ndarray, onsets: Onsets, strength: np.ndarray) -> np.nda
         empty = KICKS * stroke(strength, halfway(chain)) < min(stroke(strength, p) for p in parts)
         blows = [stroke(onsets.blows, part) for part in parts]
         for some, other in ((0, 1), (1, 0)):
-            if empty and (blows[some] > KICKS * blows[other]).all():
+            if empty and (blows[some] > ALONE * blows[other]).all():
                 chain = parts[some]
     on, off = stroke(onsets.blows, chain), stroke(onsets.blows, between := halfway(chain))
     return between if (off > on).all() and off.sum() > KICKS * on.sum() else chain

@@ -17,8 +17,8 @@ FPS = 30
 HOP = SAMPLE_RATE // FPS  # samples of a frame
 MIN_SECONDS = 1.0
 CHUNK_SECONDS = 10.0
-CANCELS = 1e-3  # energy of the mix, by that of the first channel
-CANCELLED = "{}: its channels cancel each other out when mixed; the first alone is heard"
+CANCELS = 0.02  # energy of the mix, by what the loudest channel alone would have in it
+CANCELLED = "{}: its channels cancel each other out when mixed; the loudest alone is heard"
 SAMPLES = Path("samples")  # of a sound that came from no file
 
 
@@ -57,24 +57,25 @@ def load_sound(path: str | Path) -> Sound:
         UserError: missing, no sound file, shorter than 1 s, longer than 2 h, nothing but NaN.
     """
     path = Path(path)
-    mono, notes, cancelled = _read(path)
-    if cancelled:
-        mono, notes, _ = _read(path, channels=1)
+    mono, notes, loudest = _read(path)
+    if loudest is not None:
+        del mono  # hours of sound lie in memory once
+        mono, notes, _ = _read(path, loudest)
         notes = (*notes, CANCELLED.format(path))
     sound = Sound(mono, path, sha256_file(path), notes)
     _check_length(sound)
     return sound
 
 
-def _read(path: Path, channels: int | None = None) -> tuple[np.ndarray, tuple[str, ...], bool]:
-    """Samples [S] of the first channels, what was mended, and whether they cancel out."""
+def _read(path: Path, channel: int | None = None) -> tuple[np.ndarray, tuple[str, ...], int | None]:
+    """Samples [S] of a channel, None = of all; what was mended; which one to take instead."""
     reader = SoundReader(path)
-    mixer = _Mixer(reader.rate, channels)
+    mixer = _Mixer(reader.rate, channel)
     samples = array("f")  # grows where it is: chunks joined in the end would lie there twice
     for block in reader.blocks(max(1, round(CHUNK_SECONDS * reader.rate))):
         samples.frombytes(mixer.push(block).tobytes())
     samples.frombytes(mixer.finish().tobytes())
-    return np.frombuffer(samples, np.float32), tuple(reader.notes()), mixer.cancelled
+    return np.frombuffer(samples, np.float32), tuple(reader.notes()), mixer.instead
 
 
 def check_sound(path: str | Path) -> None:
@@ -99,8 +100,8 @@ def sound_from_samples(samples: np.ndarray, sample_rate: int = SAMPLE_RATE) -> S
     mender, mixer = Mender(), _Mixer(sample_rate)
     samples = mender.mend(samples)
     mono, notes = np.concatenate([mixer.push(samples), mixer.finish()]), list(mender.notes(SAMPLES))
-    if mixer.cancelled:
-        mixer, notes = _Mixer(sample_rate, 1), [*notes, CANCELLED.format(SAMPLES)]
+    if mixer.instead is not None:
+        mixer, notes = _Mixer(sample_rate, mixer.instead), [*notes, CANCELLED.format(SAMPLES)]
         mono = np.concatenate([mixer.push(samples), mixer.finish()])
     digest = hashlib.sha256(mono.tobytes()).hexdigest()
     sound = Sound(mono, SAMPLES, digest, tuple(notes))
@@ -119,11 +120,12 @@ def _check_length(sound: Sound) -> None:
 
 
 class _Mixer:
-    """Mixes down the first channels, None = all, and resamples a stream of samples."""
+    """Mixes down all channels, or takes one, and resamples a stream of samples."""
 
-    def __init__(self, rate: int, channels: int | None = None) -> None:
+    def __init__(self, rate: int, channel: int | None = None) -> None:
         self._resampler: Any = None
-        self._channels, self._mixed, self._apart = channels, 0.0, 0.0  # and the energies
+        self._channel, self._mixed = channel, 0.0
+        self._apart = np.zeros(0)  # energy of each channel; the one before: of the mix
         if rate != SAMPLE_RATE:
             import soxr
 
@@ -131,16 +133,20 @@ class _Mixer:
 
     def push(self, samples: np.ndarray) -> np.ndarray:
         """[s,channels] at the file's rate -> [S] at 44.1 kHz."""
-        samples = samples[:, : self._channels]
+        if self._channel is not None:
+            samples = samples[:, self._channel, None]
         mono = samples.mean(axis=1, dtype=np.float32)
         self._mixed += float(np.vdot(mono, mono))
-        self._apart += float(np.vdot(samples[:, 0], samples[:, 0]))
+        energies = np.einsum("sc,sc->c", samples, samples)
+        self._apart = energies + self._apart if self._apart.size else energies
         return np.asarray(mono if self._resampler is None else self._resampler.resample_chunk(mono))
 
     @property
-    def cancelled(self) -> bool:
-        """Whether the mix is next to nothing beside the first channel: one wire is crossed."""
-        return self._mixed < CANCELS * self._apart
+    def instead(self) -> int | None:
+        """The loudest channel, where the mix is next to nothing beside it: one wire is crossed."""
+        loudest = int(self._apart.argmax()) if self._apart.size else 0
+        alone = float(self._apart.max(initial=0.0)) / max(self._apart.size, 1) ** 2  # in the mix
+        return loudest if self._mixed < CANCELS * alone else None
 
     def finish(self) -> np.ndarray:
         """The samples that the resampler still holds."""

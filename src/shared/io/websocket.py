@@ -78,7 +78,7 @@ class WebSocketServer:
             client.settimeout(None)
             with self._lock:
                 self._clients.add(client)
-            begun = b""  # of a text in parts
+            begun: bytes | None = None  # of a text in parts
             while (frame := _read_frame(client)) is not None:
                 kind, data, last = frame
                 if kind == _CLOSE:
@@ -86,11 +86,16 @@ class WebSocketServer:
                 if kind == _PING:
                     self._send(client, _PONG, data)
                 if kind in (_MORE, _TEXT):
-                    begun = data if kind == _TEXT else begun + data
+                    if (kind == _MORE) == (begun is None):
+                        raise ValueError("a part of nothing, or a text within a text")
+                    begun = (begun or b"") + data
                     if len(begun) > MAX_TEXT:
                         raise ValueError("too long")
                     if last:
                         self._heard(begun.decode())
+                        begun = None
+                elif not last:
+                    raise ValueError("only texts come in parts")
         except (OSError, ValueError):
             pass  # gone, or no WebSocket
         finally:

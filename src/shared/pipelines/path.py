@@ -431,6 +431,7 @@ def distances_to_line(places: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 STANDING = 0.25  # m/s; a prompt that moves less has no way of going
+WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
 SWAY_SMOOTHING = 0.4  # seconds, standard deviation: what is slower is the way it goes, not a step
 
 
@@ -535,6 +536,14 @@ def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) 
         return Gait(NATURAL, 0.0, turning, height, stands=True)
     way = float(np.round(np.arctan2(lateral, forward) / (np.pi / 2)) * (np.pi / 2))
     return Gait(speed, -way, turning, height)
+
+
+def time_of_steps(
+    generator: TextToMotion, passage: Passage, steps: float, sampling: Sampling
+) -> float:
+    """Seconds of so many steps at a passage's own pace."""
+    speed = natural_gait(generator, passage, sampling).speed
+    return steps * math.sqrt(60 * WALK_RATIO / speed)
 
 
 def natural_sway(features: Tensor, fps: float) -> np.ndarray:

@@ -27,6 +27,7 @@ from .words import (
     begins_after,
     measure_of,
     names_both,
+    place_kept,
     plain_text,
     side_of,
     tidied,
@@ -72,8 +73,7 @@ PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
 PLAIN = [said for _, said in PLAINLY.values()]
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
-_SIDES = {"left", "right"}
-ABOUT = 180.0  # degrees, which need no side
+_SIDES, ABOUT = {"left", "right"}, 180.0  # degrees, which need no side
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def _plainly(clause: Clause, learned: Collection[str], read: Read, *, alone: boo
         text = words.bends.sub(f"turns {side_of(text)}", text)
     if "posed" in learned and words.posed.fullmatch(arms) and _surely(read(arms)) != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
-    spot = None if clause.far else words.in_place.search(text)
+    spot = place_kept(text) if clause.metres is clause.degrees is None else None
     if spot and _surely(read(rest := _without(text, spot))) in GOING:
         text, clause = rest, replace(clause, metres=0.0)
     return replace(clause, text=text, meanwhile=arms)

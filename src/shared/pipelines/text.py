@@ -52,27 +52,25 @@ from .path import (
     natural_gait,
     natural_sway,
     on_the_spot,
+    time_of_steps,
     time_path,
     turned,
 )  # fmt: skip
 from .sentence import GOING, LOW, PLAIN, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .words import goes_round, says_number, side_of, turns_head, unlearned
+from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING = GOING | {"side-step"}
-WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
-TURN_SECONDS = 2.2  # of a quarter on the spot, led
-TURNING = math.radians(20.0)  # a second: less is no turn
+TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
 DOWN, DOWN_SPEED, DOWN_AHEAD = 0.15, 0.43, 6  # metres, m/s, frames before a clause's own
 HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncounted claps
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
-LEAST = 1.0  # seconds in which an action can be seen
-UNEASY = 0.5  # what it counts that a gesture does not end at rest; 1: that it is not there
+LEAST, UNEASY = 1.0, 0.5  # seconds in which an action is seen; how bad no rest is, by a miss
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
 
 log = logging.getLogger(__name__)
@@ -118,7 +116,7 @@ class SentenceGenerator:
         """Motions for the prompts, prompt-major; as `TextToMotion.generate` but for the length.
 
         Args:
-            seconds: of each clause that names no length of its own; any length.
+            seconds: of each clause that names none, any; of several, three of what is done once.
 
         Raises:
             UserError: as `TextToMotion.generate`.
@@ -285,7 +283,7 @@ class SentenceGenerator:
                 # whose height drifts by centimetres seems to fly.
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
-            several = clause.count > 1 or frames <= ONCE[1] * fps
+            several = clause.count > 1 or (frames <= ONCE[1] * fps and self._is_single(clause))
             if several and (count := repetitions(action, seen, side)) is not None:
                 found = abs(count - round(clause.count * len(features) / frames))
             uneasy = rests and len(features) >= frames and not ends_at_rest(motion)
@@ -321,6 +319,11 @@ class SentenceGenerator:
         one = len(parts) == 1 and parts[0].plain and not self._applauds(parts[0])
         return fits and one and not self._turns(parts[0])
 
+    def _is_single(self, clause: Clause) -> bool:
+        """Whether a clause asks for something that is seen once, and for no more of it."""
+        seen = self._nearest(clause.text) in REPETITIONS.keys() - {"clap"}
+        return seen and not clause.held and not says_often(clause.text)
+
     def _applauds(self, clause: Clause) -> bool:
         """Whether a clause asks for claps and does not say how many."""
         if self._nearest(clause.text) != "clap" or clause.count > 1 or clause.metres is not None:
@@ -354,7 +357,7 @@ class SentenceGenerator:
     ) -> Motion:
         parts = self.clauses(text)
         once = min(seconds, ONCE[1]) if len(parts) > 1 else seconds  # of several, each is done once
-        times = [once if self._nearest(part.text) in REPETITIONS else seconds for part in parts]
+        times = [once if self._is_single(part) else seconds for part in parts]
         stretches = [self._stretch(p, s, tag, sampling) for p, s in zip(parts, times, strict=True)]
         return self._motion(parts, stretches, text, sampling, lock)
 
@@ -412,18 +415,20 @@ class SentenceGenerator:
     ) -> Motion:
         """What clauses became, one after the other, and what single limbs do meanwhile."""
         starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
-        given = Constraint.free(starts[-1])
-        for start, (passage, constraint) in zip(starts, stretches, strict=False):
+        given, fps = Constraint.free(starts[-1]), self.card.fps
+        for part, start, (passage, constraint) in zip(parts, starts, stretches, strict=False):
             if constraint is not None:
                 stop = start + passage.frames
                 given.values[start:stop] = constraint.values
                 given.known[start:stop] = constraint.known
+                if start and part.metres == 0:  # who went comes to a stop first
+                    stop = start + round(TURN_REST * fps)
+                    given.known[start:stop, ROOT_ROW, [FORWARD, LATERAL]] = False
         led = self._led_down(given, parts, starts, sampling)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
         led |= any(constraint is not None for _, constraint in stretches)
         repeated = any(part.count > 1 for part in parts)
-        fps = self.card.fps
         pieces = stream_features(
             self.generator,
             [passage for passage, _ in stretches],
@@ -505,8 +510,10 @@ class SentenceGenerator:
         fps = self.card.fps
         if exactly is not None:
             clause = replace(clause, seconds=exactly / fps)
-        if clause.steps is not None and clause.seconds is None:
-            clause = replace(clause, seconds=self._stepping(clause, tag, sampling))
+        steps = self._nearest(clause.text) in STEPPING and clause.seconds is None and clause.steps
+        if steps:
+            alone = Passage(clause.text, 1, tag)
+            clause = replace(clause, seconds=time_of_steps(self.generator, alone, steps, sampling))
         seconds, given = clause.seconds or seconds, None
         passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
         if self._applauds(clause):
@@ -559,13 +566,6 @@ class SentenceGenerator:
             seconds = circles * around + 2 * TURN_REST
         left = sampling.seed % 2 == 0 if side == "both" else side == "left"
         return turned(360.0 * (circles if left else -circles), fps, seconds)
-
-    def _stepping(self, clause: Clause, tag: str | None, sampling: Sampling) -> float | None:
-        """Seconds of the clause's steps at its own pace; None where it does not go."""
-        if self._nearest(clause.text) not in STEPPING:
-            return None
-        speed = natural_gait(self.generator, Passage(clause.text, 1, tag), sampling).speed
-        return (clause.steps or 0) * math.sqrt(60 * WALK_RATIO / speed)
 
     def _led(
         self, passage: Passage, clause: Clause, sampling: Sampling, *, timed: bool

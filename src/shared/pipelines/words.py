@@ -9,7 +9,7 @@ import gc
 import re
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache, cached_property, lru_cache, partial, reduce
+from functools import cache, cached_property, lru_cache, partial
 from itertools import groupby
 from typing import Any
 
@@ -29,6 +29,7 @@ UNITS = {  # of a sentence: what they measure, how much of it one is, and the le
     "steps": ("steps", 1.0, 2.0),  # one step is mostly a way of saying where to
 }
 ARROW, STANDS = " → ", "stands still"  # what then follows; who waits
+FEW = 2  # words that may follow "in place" where nothing is before it
 ARRIVES = 1.5  # seconds until what is held so many seconds is there, and until it is no more
 EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-"  # what no clause begins or ends with
 _CJK = "\u3040-\u30ff\u3400-\u9fff"
@@ -280,6 +281,8 @@ class Words:
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         self.in_place = Rare(_any(all_of("in_place")), all_of("in_place"))
+        self.off = Rare(_any(all_of("off")), all_of("off"))
+        self.many = Rare(_any(all_of("many")), all_of("many"))
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
         several = [word for word, value in numbers.items() if value > 1]
@@ -523,6 +526,27 @@ def _value_of_sign(sign: str) -> int:
     return 2 if sign == "两" else _ONES.index(sign) + 1
 
 
+def says_often(text: str) -> bool:
+    """Whether a text asks for something again and again."""
+    return all_words().many.search(text) is not None
+
+
+def place_kept(text: str) -> re.Match[str] | None:
+    """The words by which somebody who goes is to stay where he is: last of what is done, or before
+    the verb, where Chinese and Japanese have them; "his helmet in place" is no such thing."""
+    words = all_words()
+    found = words.in_place.search(text)
+    if found is None or words.off.search(text):
+        return None
+    before, after = text[: found.start()].strip(EDGES), text[found.end() :].strip(EDGES)
+    if re.match(CJK_SIGN, found[0]):
+        return found if after else None
+    first = not before and len(after.split()) <= FEW
+    last = not after or words.sign.match(after)
+    another = words.sign.search(before) or words.joint.search(before)  # thing that is in place
+    return found if first or (last and not another) else None
+
+
 def measure_of(unit: str, text: str, least: float) -> re.Match[str] | None:
     """The first measure in a text that is so large."""
     found = all_words().units[unit].finditer(text)
@@ -570,31 +594,3 @@ def says_number(text: str) -> bool:
 def turns_head(text: str) -> bool:
     """Whether a text asks the head alone to turn."""
     return bool(all_words().head_turns.search(text))
-
-
-# ---------------------------------------------------------------- the same in a browser
-
-_WORD = r"\p{L}\p{N}_"  # what \w is here
-_JAVASCRIPT = (
-    ("(?-i:", "(?:"),
-    ("(?P<", "(?<"),
-    (r"[\w", f"[{_WORD}"),
-    (r"\w", f"[{_WORD}]"),
-    (r"\W", f"[^{_WORD}]"),
-    (r"\d", r"\p{Nd}"),
-    (r"\-", "-"),
-)
-
-
-def javascript_patterns() -> dict[str, Any]:
-    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
-    ours = all_words()
-    tables = ("numbers", "adverbs", "angles", "others", "plainly", "steps")
-    said = {name: vars(ours)[name] for name in tables}
-    apart = {*said, "units", "pauses"}
-    alone = {name: each for name, each in vars(ours).items() if name not in apart}
-    found = {
-        name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
-        for name, each in (alone | ours.units | ours.pauses).items()
-    }
-    return {"patterns": found, "units": UNITS, "most": MOST, "maxCount": MAX_COUNT} | said

@@ -8,6 +8,7 @@ that no browser runs. The page refuses the network by its own Content-Security-P
 import base64
 import gzip
 import re
+from functools import reduce
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -32,7 +33,7 @@ from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card, require_packa
 from ..motion.postprocess.whole import smoothing_weights
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
-from ..pipelines.words import javascript_patterns, unlearned_words
+from ..pipelines.words import MAX_COUNT, MOST, UNITS, all_words, unlearned_words
 
 WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
 LICENCES = "licences.txt.gz"
@@ -185,3 +186,31 @@ def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
         ],
         "body": body,
     }
+
+
+# ---------------------------------------------------------------- words as JavaScript reads them
+
+_WORD = r"\p{L}\p{N}_"  # what \w is here
+_JAVASCRIPT = (
+    ("(?-i:", "(?:"),
+    ("(?P<", "(?<"),
+    (r"[\w", f"[{_WORD}"),
+    (r"\w", f"[{_WORD}]"),
+    (r"\W", f"[^{_WORD}]"),
+    (r"\d", r"\p{Nd}"),
+    (r"\-", "-"),
+)
+
+
+def javascript_patterns() -> dict[str, Any]:
+    """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
+    ours = all_words()
+    tables = ("numbers", "adverbs", "angles", "others", "plainly", "steps")
+    said = {name: vars(ours)[name] for name in tables}
+    apart = {*said, "units", "pauses"}
+    alone = {name: each for name, each in vars(ours).items() if name not in apart}
+    found = {
+        name: reduce(lambda text, pair: text.replace(*pair), _JAVASCRIPT, each.pattern)
+        for name, each in (alone | ours.units | ours.pauses).items()
+    }
+    return {"patterns": found, "units": UNITS, "most": MOST, "maxCount": MAX_COUNT} | said

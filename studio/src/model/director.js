@@ -125,7 +125,7 @@ export class Director {
   async clausesOf(prompt, parts, seconds, seed, options) {
     const stretches = [];
     for (const part of parts) {
-      const once = parts.length > 1 && this.nearest(part.text) in REPETITIONS; // of several, each is done once
+      const once = parts.length > 1 && this.isSingle(part); // of several, each is done once
       stretches.push(await this.stretch(part, once ? Math.min(seconds, ONCE[1]) : seconds, seed));
     }
     return this.performed(parts, stretches, prompt, seed, options);
@@ -141,6 +141,8 @@ export class Director {
       if (stretch.given) {
         given.values.set(stretch.given.values, at * WIDTH);
         given.known.set(stretch.given.known, at * WIDTH);
+        if (at && parts[starts.length - 1].metres === 0) // who went comes to a stop first
+          for (let t = at; t < at + round(TURN_REST * FPS); t++) given.known[t * WIDTH + ROOT + FORWARD] = given.known[t * WIDTH + ROOT + LATERAL] = 0;
       }
       at += stretch.passage.frames;
     }
@@ -232,6 +234,12 @@ export class Director {
     const frames = Math.max(1, round(seconds * FPS));
     if (clause.held) return led(await this.held(clause, frames, seed));
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
+  }
+
+  /** Whether a clause asks for something that is seen once, and for no more of it. */
+  isSingle({ text, held }) {
+    const action = this.nearest(text);
+    return action in REPETITIONS && action !== "clap" && !held && !this.reader.saysOften(text);
   }
 
   /** Whether a clause asks for claps and does not say how many. */
@@ -351,7 +359,7 @@ export class Director {
     if (wanted === null && !rests) return null;
     return (features) => {
       const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
-      const count = clause.count > 1 || frames <= ONCE[1] * FPS ? repetitions(action, seen, side) : null;
+      const count = clause.count > 1 || (frames <= ONCE[1] * FPS && this.isSingle(clause)) ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));
       if (found && made > latest) // one bad window is none of those that follow, and feet are cleaned up yet
         found = Number(!wanted(measure(postProcess(cut(features, made - latest, made), this.settings.post, {}))));

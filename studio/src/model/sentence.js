@@ -2,7 +2,7 @@
 // with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180;
+const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180, FEW = 2;
 const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
 const GOT_UP = { action: "stand", certainty: 3, arms: false };
 const PLAINLY = { // what whole patterns ask for, and words of a tower that knows them
@@ -114,7 +114,7 @@ export class SentenceReader {
       text = text.replace(this.first.bends, `turns ${this.sideOf(text)}`);
     if (this.entire.posed.test(meanwhile) && this.learned("posed") && surely(this.plainRead(meanwhile)) !== "raise")
       meanwhile = `raises ${clause.side} arm${clause.side === "both" ? "s" : ""}`;
-    const spot = isFar(clause) ? null : this.first.in_place.exec(text);
+    const spot = clause.metres === null && clause.degrees === null ? this.placeKept(text) : null;
     if (spot) {
       const rest = this.without(text, spot);
       if (GOING.includes(surely(this.plainRead(rest)))) return { ...clause, text: rest, meanwhile, metres: 0 };
@@ -430,6 +430,22 @@ export class SentenceReader {
 
   goesRound(text) {
     return this.first.round.test(text) && !this.first.corner.test(text);
+  }
+
+  /** The words by which somebody who goes is to stay where he is; "his helmet in place" is no such thing. */
+  placeKept(text) {
+    const found = this.first.in_place.exec(text);
+    if (!found || this.first.off.test(text)) return null;
+    const before = strip(text.slice(0, found.index)), after = strip(text.slice(found.index + found[0].length));
+    if (/^[\u3040-\u30ff\u3400-\u9fff]/u.test(found[0])) return after ? found : null;
+    const isFirst = !before && after.split(/\s+/u).length <= FEW, last = !after || this.head.sign.test(after);
+    const another = this.first.sign.test(before) || this.first.joint.test(before); // thing that is in place
+    return isFirst || (last && !another) ? found : null;
+  }
+
+  /** Whether a text asks for something again and again. */
+  saysOften(text) {
+    return this.first.many.test(text);
   }
 
   /** Whether a text says how often, were it once. */

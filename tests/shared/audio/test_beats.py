@@ -151,6 +151,16 @@ def test_the_beat_of_a_club_is_where_its_kicks_are(tempo: float, hats: float, ba
     assert f_measure(np.arange(0, 19.4, 60 / tempo), found.beat_times) > 0.9
 
 
+def test_kicks_that_are_loud_and_soft_in_turn_are_beats_all() -> None:
+    rate, time = 44_100, np.arange(8820) / 44_100
+    kick = np.sin(2 * np.pi * (50 * time + 8 * (1 - np.exp(-30 * time)))) * np.exp(-15 * time)
+    sound, beats = np.zeros(20 * rate), np.arange(0, 19.4, 60 / 180)
+    for number, beat in enumerate(beats):
+        start = round(beat * rate)
+        sound[start : start + len(kick)] += (0.36 if number % 2 else 0.9) * kick
+    assert track_beats(sound).tempo == pytest.approx(180, rel=0.01)
+
+
 def test_silence_around_a_song_is_no_reason_to_doubt_it() -> None:
     spec = SongSpec(seconds=16.0, tempo=118.0, seed=3)
     plain = track_beats(render_song(spec).samples)

@@ -216,3 +216,7 @@ def test_channels_that_cancel_each_other_out_are_not_silence(tmp_path: Path) -> 
         np.testing.assert_allclose(sound.samples, alone.samples, atol=1e-6)
         assert "cancel" in sound.notes[-1]
     assert load_sound(write(tmp_path / "still.wav", 0 * crossed, 48000)).notes == ()
+    hiss, silent = 1e-4 * left[::-1], np.zeros((len(left), 31), np.float32)
+    for channels, heard in (([hiss, left, -0.95 * left], True), ([left, silent], False)):
+        notes = sound_from_samples(np.concatenate(channels, axis=1), 48000).notes
+        assert any("cancel" in note for note in notes) is heard

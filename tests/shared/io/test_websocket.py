@@ -77,6 +77,7 @@ def test_a_text_may_come_in_parts(server: WebSocketServer, heard: list[str]) -> 
     client.sendall(bytes([first[0] & 0x7F]) + first[1:] + bytes([more[0] & 0x7F]) + more[1:])
     client.sendall(masked(9, b"hi") + last)
     until(lambda: heard == ["一个人挥手"])
+    assert heard == ["一个人挥手"]
     client.sendall(2 * (bytes([1]) + masked(1, b"x" * 4000)[1:]) + masked(0, b"x" * 200))
     until(lambda: not server._clients)
 
@@ -89,6 +90,18 @@ def test_what_is_no_frame_of_ours_ends_it(server: WebSocketServer, data: bytes) 
     other = joined(server)
     server.send("still here")
     assert other.recv(64).endswith(b"still here")
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [masked(1, b"walks") + masked(0, b" on"), bytes([1]) + masked(1, b"a")[1:] + masked(1, b"b"),
+     bytes([9]) + masked(9, b"hi")[1:], bytes([2]) + masked(2, b"a")[1:]],
+)  # fmt: skip
+def test_parts_of_nothing_end_it(server: WebSocketServer, heard: list[str], parts: bytes) -> None:
+    client = joined(server)
+    client.sendall(parts)
+    until(lambda: not server._clients)
+    assert heard in ([], ["walks"])
 
 
 def test_foreign_pages_are_refused(server: WebSocketServer) -> None:

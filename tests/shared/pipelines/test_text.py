@@ -107,13 +107,49 @@ def test_who_goes_in_place_stays_there(starter: TextToMotion, text: str):
     assert np.ptp(ankles, axis=0).max() > 0.03
 
 
-def test_what_stays_anyway_is_no_measure(starter: TextToMotion):
+@pytest.mark.parametrize(
+    "text",
+    ["a person jumps in place", "a person turns left on the spot", "一个人走回原地",
+     "他从原地走开", "男が歩いてその場で止まる", "彼はその場で走って逃げる",
+     "er rennt auf der Stelle los", "er geht auf der Stelle nach Hause",
+     "a person walks back in place of the bench", "a soldier walks with his helmet in place",
+     "the dancer walks, hands in place", "she walks and stops on the spot",
+     "camina sin avanzar mucho"],
+)  # fmt: skip
+def test_what_else_is_in_place_keeps_nobody_there(starter: TextToMotion, text: str):
+    found = SentenceGenerator(starter).clauses(text)
+    assert {clause.metres for clause in found} == {None}
+
+
+def test_steps_in_place_and_knees_beside(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
-    for text in (
-        "a person jumps in place", "a person turns left on the spot", "一个人走回原地",
-        "男が歩いてその場で止まる",
-    ):  # fmt: skip
-        assert {clause.metres for clause in sentences.clauses(text)} == {None}
+    (steps,) = sentences.clauses("a person walks in place for ten steps")
+    (knees,) = sentences.clauses("runs in place with high knees")
+    assert (steps.metres, steps.steps, knees.metres) == (0, 10, 0)
+
+
+def test_who_runs_on_in_place_comes_to_a_stop_first(starter: TextToMotion):
+    """A pelvis at 2.8 m/s that was known to rest in the next frame braked by 48 m/s²."""
+    sentences = SentenceGenerator(starter)
+    (motion,) = sentences.generate(["a person runs forward, then runs in place"], seed=1)
+    velocity = np.diff(motion.root_position[:, [0, 2]].astype(float), axis=0) * motion.fps
+    speed = np.linalg.norm(velocity, axis=1)
+    assert speed[30:90].mean() > 1.5 and speed[-60:].max() < 0.1
+    assert np.linalg.norm(np.diff(velocity, axis=0), axis=1).max() * motion.fps < 30
+
+
+@pytest.mark.parametrize(
+    ("text", "seconds"),
+    [("a man walks, then jumps", 3), ("a man walks, then jumps again and again", 4),
+     ("ein Mann geht, dann springt er immer wieder", 4), ("他走，然后不停地跳", 4),
+     ("a man walks, then squats down and stays there", 4)],
+)  # fmt: skip
+def test_what_is_asked_for_often_or_held_keeps_its_time(
+    starter: TextToMotion, text: str, seconds: float
+):
+    sentences = SentenceGenerator(starter)
+    (motion,) = sentences.generate([text], steps=2)
+    assert motion.seconds - 4.0 == pytest.approx(seconds, abs=0.1)
 
 
 def test_a_measure_is_no_cause_for_a_warning(starter: TextToMotion):
@@ -182,8 +218,9 @@ def test_what_is_held_stays(starter: TextToMotion):
 
 
 @pytest.mark.parametrize(
-    "text", ["an old man slowly sits down", "a man sits down slowly", "老人慢慢地坐下",
-             "un anciano se sienta despacio", "sie setzt sich langsam hin", "elle s'assoit lentement"]
+    "text",
+    ["an old man slowly sits down", "a man sits down slowly", "老人慢慢地坐下",
+     "un anciano se sienta despacio", "sie setzt sich langsam hin", "elle s'assoit lentement"],
 )  # fmt: skip
 def test_who_sits_down_slowly_sits_down(starter: TextToMotion, text: str):
     first, last = SentenceGenerator(starter).clauses(text)

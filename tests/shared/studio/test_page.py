@@ -135,7 +135,11 @@ def test_what_nobody_taught_is_told_as_by_the_command(
 
 
 @BROWSER
-@pytest.mark.parametrize("prompt", ["a jogger runs in place", "she walks forward, then jumps"])
+@pytest.mark.parametrize(
+    "prompt",
+    ["a jogger runs in place", "she walks forward, then jumps", "he runs, then runs in place",
+     "他走，然后不停地跳"],
+)  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
 ) -> None:

@@ -74,8 +74,10 @@ def open_recording(
     if ending == ".bvh":
         return Recording("BVH", clip=read_bvh(path))
     if ending in (".glb", ".vrma", ".vrm"):  # the last is an avatar, at rest
-        clip = read_glb(path)
-        return Recording(ending[1:].upper(), clip=clip, up="Y", metres=1.0, text=clip.text)
+        clip, name = read_glb(path), ending[1:].upper()
+        still = ("an avatar, which holds no motion: this is how it stands at rest",)
+        told = still if ending == ".vrm" else ()
+        return Recording(name, clip=clip, up="Y", metres=1.0, text=clip.text, warnings=told)
     if ending == ".csv":
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":
