@@ -180,7 +180,8 @@ class Trainer(Generic[ConfigT]):
 
     Raises:
         UsageError: a device, precision or number of processes that does not exist here; the
-            output folder holds a run and `resume` is off.
+            output folder holds a run, and `resume` is off or its settings are others.
+        UserError: all its checkpoints are damaged.
     """
 
     def __init__(
@@ -203,6 +204,10 @@ class Trainer(Generic[ConfigT]):
         processes = self.accelerator.num_processes
         announce(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
         announce(f"writing to {self.output}")
+        self._last = latest_checkpoint(self.output / "checkpoints")
+        if self._last is not None:  # settings that differ are told before what the task prepares
+            ours = run_identity(config, {}, processes)
+            require_same_run(self._last, {**self._last.state["identity"], **ours})
         with self.accelerator.main_process_first():
             torch.manual_seed(mix_seed("weights", config.seed))
             self.task = build(config)
@@ -423,7 +428,7 @@ class Trainer(Generic[ConfigT]):
 
     def _restore(self) -> int | None:
         """The step to continue after, or None when there is nothing left to do."""
-        checkpoint = latest_checkpoint(self.output / "checkpoints")
+        checkpoint = self._last
         if checkpoint is None:
             if self.resume:
                 announce(f"nothing to resume in {self.output}: starting at step 0")

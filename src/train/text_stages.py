@@ -9,6 +9,7 @@ Letters: N prompts or captions, D embed dim, H width of the encoder.
 
 import copy
 import hashlib
+import json
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -19,7 +20,7 @@ from typing import Any, Self
 import numpy as np
 import torch
 from safetensors import safe_open
-from safetensors.torch import save_file
+from safetensors.torch import load_file, save_file
 from torch import Tensor
 
 from ..shared.config_schema import ClipConfig, NetworkConfig, TrainConfig
@@ -451,6 +452,35 @@ def caption_means(
     with atomic_write(file) as temporary:
         save_file({"means": rows}, temporary, metadata=made_of)
     return rows
+
+
+def taught_once(
+    file: Path, made_of: Sequence[object], like: TextTower, teach: Callable[[], TextTower]
+) -> TextTower:
+    """What `teach` makes of a tower of token pairs: read from the file if it holds what was made of
+    the same plain data, else made and written there.
+
+    Raises:
+        UserError: the file cannot be written.
+    """
+    key = {"made of": hashlib.sha256(json.dumps(made_of).encode()).hexdigest()}
+    if file.is_file():
+        with safe_open(file, "pt") as stored:
+            known = stored.metadata() == key
+        if known:
+            state = load_file(file)
+            sizes = {
+                "text_pairs": len(state["encoder.keys"]),
+                "text_places": len(state["places"]),
+                "text_place_keys": "keys" in state,
+            }
+            tower = TextTower(like.config.model_copy(update=sizes), like.embed_dim)
+            tower.load_state_dict(state)
+            return tower.freeze()
+    tower = teach()
+    with atomic_write(file) as temporary:
+        save_file(tower.state_dict(), temporary, metadata=key)
+    return tower
 
 
 @dataclass(frozen=True)

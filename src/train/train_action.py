@@ -51,6 +51,7 @@ from .text_stages import (
     motion_rows,
     network_of_model,
     open_training_data,
+    taught_once,
     training_set,
     with_places,
     write_samples,
@@ -64,6 +65,7 @@ from .train_generation import (
     spread_timesteps,
 )
 
+TOWER_FILE = "taught-tower.safetensors"  # in the output folder: a resumed run reads it
 KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
 LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
@@ -179,21 +181,22 @@ class ActionTask(Task):
         labels = [record.labels for record in groups.values()]
         places = apart(means, labels, self.before.card.tags, kept=KEPT)
         places = within_reach(before, places)
-        announce(f"teaching the text tower {', '.join(self.actions)}")
-        tower = with_new_places(
-            before,
-            self.before.tokenizer,
-            places,
-            list(captions.values()),
-            self._known_captions,
-            [
-                text
-                for code in self.config.languages
-                for text in packaged_book().outside({*self.before.card.tags, *self.actions}, code)
-            ],
-            steps=self.config.tower_steps,
-            seed=self.config.seed,
-        )
+        known, (steps, seed) = self._known_captions, (self.config.tower_steps, self.config.seed)
+        outside = [
+            text
+            for code in self.config.languages
+            for text in packaged_book().outside({*self.before.card.tags, *self.actions}, code)
+        ]
+
+        def taught() -> TextTower:
+            announce(f"teaching the text tower {', '.join(self.actions)}")
+            said, tokenizer = list(captions.values()), self.before.tokenizer
+            return with_new_places(
+                before, tokenizer, places, said, known, outside, steps=steps, seed=seed
+            )
+
+        made_of = [tower_hash(before), captions, known, outside, steps, seed]
+        tower = taught_once(Path(self.config.output) / TOWER_FILE, made_of, before, taught)
         return tower, dict(zip(groups, places, strict=True))
 
     def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:

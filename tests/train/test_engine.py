@@ -106,6 +106,13 @@ def test_resuming_with_other_settings_names_the_setting(tmp_path: Path) -> None:
         run(tmp_path, resume=True, batch_size=8)
 
 
+def test_other_settings_are_told_before_the_task_is_made(tmp_path: Path) -> None:
+    run(tmp_path)
+    config = TrainConfig(**{**BASE, "output": str(tmp_path), "batch_size": 8})
+    with pytest.raises(UsageError, match="batch"):
+        Trainer(config, lambda _: pytest.fail("made"), command="again", resume=True)
+
+
 def test_resuming_a_run_of_another_stage_says_so(tmp_path: Path) -> None:
     run(tmp_path)
     checkpoint = latest_checkpoint(tmp_path / "checkpoints")

@@ -21,6 +21,7 @@ from src.shared.data.sources import MotionFolder
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
+from src.shared.model.clip.pretrained import tower_hash
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
 from src.train.text_stages import as_features
@@ -79,7 +80,7 @@ def action_config(data: Path, init: Path | str, output: Path, *more: str) -> Tra
 
 
 def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
-    model: Path, flops: Path, tmp_path: Path
+    model: Path, flops: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     config = action_config(flops, model, tmp_path / "taught", "steps=3", "batch-size=4")
     network = network_of(str(model))
@@ -101,6 +102,12 @@ def test_a_new_action_has_a_place_and_the_old_ones_keep_theirs(
     assert new.generate(["a person flops"], seconds=1.0, steps=2, tags=["flop"])[0].num_frames == 30
     figures = trainer.task.figures  # a tiny network is not near; nobody is nearer than a copy
     assert figures.keys() == {"flop-cm", "flop-speed"} and min(figures.values()) > 0
+    # who resumes reads the tower that was taught, and sends sentences where it sent them
+    before = capsys.readouterr().err
+    resumed = ActionTask(config, network)
+    assert "teaching the text tower" in before
+    assert "teaching the text tower" not in capsys.readouterr().err
+    assert tower_hash(resumed.tower) == tower_hash(trainer.task.tower)
     # and once more, on top of that: nothing is new any longer
     with pytest.raises(UserError, match=r"no action that .* does not know"):
         ActionTask(action_config(flops, config.output, tmp_path / "again"), network)
