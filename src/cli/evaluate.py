@@ -394,6 +394,8 @@ def plot(
     """
     if file.is_dir():
         raise UsageError(f"{file} is a folder; name a trajectory or a log.jsonl in it")
+    if not file.exists():
+        raise UsageError(f"{file} does not exist; name a trajectory or a log")
     picture = out or file.with_suffix(".png")
     if picture.suffix.lower() not in PICTURES:
         raise UsageError(f"--out {picture}: choose from {', '.join(PICTURES)}")

@@ -36,7 +36,7 @@ def test_an_analysed_song_is_pointed_to_its_own_picture(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("arguments", "code"), [
-    (["none.npz"], 1), (["none.json"], 1), (["."], 2), (["a.bvh"], 2),
+    (["none.npz"], 2), (["none.json"], 2), (["."], 2), (["a.bvh"], 2),
     (["none.npz", "--out", "a.gif"], 2), (["none.npz", "--out", "."], 2),
 ])  # fmt: skip
 def test_wrong_calls_end_in_one_line(

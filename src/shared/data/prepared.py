@@ -19,7 +19,7 @@ from safetensors.torch import load_file
 from torch import Tensor
 
 from ..config_schema import Provenance
-from ..errors import UserError, first_fault
+from ..errors import UsageError, UserError, first_fault
 from ..io.files import inside, is_whole, load_json, sha256_file
 from ..io.storage import Address, Place, fetched, place
 from ..motion.features import mirror_features
@@ -106,12 +106,15 @@ class PreparedData:
             verify: compare every file with its SHA-256 in the manifest.
 
         Raises:
-            UserError: not a prepared folder, or a file is missing or damaged.
+            UsageError: not a prepared folder.
+            UserError: a file in it is missing or damaged.
         """
         self.folder = folder
         path = self.folder / "manifest.json"
         if not path.exists():
-            raise UserError(f"{folder} is not prepared data: no manifest.json; run `prepare` first")
+            raise UsageError(
+                f"{folder} is not prepared data: no manifest.json; run `prepare` first"
+            )
         with damaged(path):
             self.manifest = dict(load_json(path))
             self.tags: tuple[str, ...] = _TEXTS.validate_python(self.manifest["tags"])

@@ -31,7 +31,7 @@ from ..data.phrases.layout import MANIFEST as PAIRS_MANIFEST
 from ..data.phrases.layout import BadContent, PhraseRecord, PhraseTable
 from ..data.phrases.store import PhraseStore, Remote
 from ..data.retarget.read_motion import FOLDER_ENDINGS, read_motion
-from ..errors import UserError
+from ..errors import UsageError, UserError
 from ..io.files import parse_json, read_text, remove_folder
 from ..io.jobs import run_jobs
 from ..io.storage import Backoff, Place, Unreachable, fetched, files_below, place
@@ -128,7 +128,9 @@ class Source:
         self.records = [record for record in everything if record.split == split]
         self.bad: dict[str, str] = {}
         if not self.records:
-            splits = ", ".join(sorted({record.split for record in everything})) or "none"
+            splits = ", ".join(sorted({record.split for record in everything}))
+            if not splits:
+                raise UsageError(f"{root} holds no phrases; name a folder of `prepare-audio`")
             raise UserError(f"{root} has no phrases of split {split!r}; there are: {splits}")
         bare = [record.id for record in self.records if record.body is None]
         if bare:

@@ -329,7 +329,7 @@ def test_nothing_usable_is_an_error(tmp_path: Path) -> None:
 
 
 def test_a_damaged_folder_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="not prepared data"):
+    with pytest.raises(UsageError, match="not prepared data"):
         PreparedData.open(tmp_path)
     data = open_data("synthetic", tmp_path, synthetic_clips=8)
     shard = next((data.folder / "shards").glob("*.safetensors"))

@@ -15,7 +15,7 @@ from torch import Tensor
 
 from src.shared.config_audio import MemoryConfig
 from src.shared.data.phrases.layout import MANIFEST, body_path
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.io.storage import Address
 from src.shared.memory import build
 from src.shared.memory.build import build_memory
@@ -190,7 +190,7 @@ def test_a_folder_without_bodies_says_what_to_do(tmp_path: Path) -> None:
 def test_other_folders_and_splits(pairs: Path, tmp_path: Path) -> None:
     with pytest.raises(UserError, match="no phrases of split 'val'; there are: test, train"):
         build_memory(pairs, LinearSpace(), tmp_path, split="val")
-    with pytest.raises(UserError, match="no phrases of split"):
+    with pytest.raises(UsageError, match="holds no phrases; name a folder of `prepare-audio`"):
         build_memory(tmp_path, LinearSpace(), tmp_path / "memory")
     with pytest.raises(UserError, match="long enough"):
         build_memory(pairs, LinearSpace(), tmp_path, config=MemoryConfig(min_frames=500))
