@@ -8,6 +8,7 @@ Letters: S training steps, N sampling steps. Timestep t runs from 0 (almost clea
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -186,7 +187,7 @@ TRIES = 8  # samples at most of what is sampled again until it is right
 
 def retry_seeds(seed: int) -> Iterator[int]:
     """The seeds of TRIES samples, the first one `seed` itself."""
-    return (derived_seed(seed, number) for number in range(TRIES))
+    return map(partial(derived_seed, seed), range(TRIES))
 
 
 def sample_generators(seed: int, num_samples: int, start: int = 0) -> list[NoiseStream]:

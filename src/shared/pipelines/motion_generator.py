@@ -30,7 +30,6 @@ from ..motion.motion import Motion
 from .edit import ControlledMotion, Given, edited
 from .path import Way, along_path, path_of
 from .ranking import PerformanceJudge, PromptResult, PromptSampler, TextJudge, load_tower, own_tower
-from .sentence import whole
 from .stream import DEFAULT_SAMPLING, MotionStream, Passage
 from .text import SentenceGenerator
 from .timeline import Timeline, read_timeline
@@ -422,7 +421,7 @@ class MotionGenerator:
             raise UsageError(f"given is a {kind}; make it with edit_clip or continue_clips")
         own, said, miss = self.sentences, prompt, None
         if prompt is not None:
-            said, miss = whole(prompt, own.clauses(prompt)), own.unseen(prompt)
+            said, miss = own.whole(prompt), own.unseen(prompt)
         made = edited(self.text, said, given, sampling, tag=tag, foot_lock=foot_lock, miss=miss)
         made = replace(made, motion=replace(made.motion, text=prompt or ""))
         free = np.flatnonzero(~given.constraint.known.flatten(1).all(1).numpy())

@@ -8,7 +8,7 @@ that is of it decides where no word does.
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -70,7 +70,6 @@ PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
     "bends": (Reading("turn", 3.0), "turns left"),
     "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
 }
-PLAIN = [said for _, said in PLAINLY.values()]
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES, ABOUT = {"left", "right"}, 180.0  # degrees, which need no side
@@ -128,44 +127,45 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
     one clause, with what the arms do meanwhile.
     """
     words, found = all_words(), list[Clause]()
-    learned = {name: own for name, (own, said) in PLAINLY.items() if own.action == read(said)[0]}
-    stands = "ups" in learned
 
     def known(text: str) -> Reading:
-        own = (learned[name] for name in learned if vars(words)[name].fullmatch(text))
+        own = (own for name, (own, _) in PLAINLY.items() if _says(name, text, read))
         return next(own, None) or read(_bared(text, read))
 
     for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
-        pieces = _joined(whole, known)
-        last = found[-1] if found else None
+        pieces, last = _joined(whole, known), found[-1] if found else None
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], known) if others else None
             clause = pair or _parted(first, known) or _measured(first)
             found.append(_as_before(last, clause) if last else clause)
-            last = None
-            pieces = others[1:] if pair else others
+            last, pieces = None, others[1:] if pair else others
     found = [clause for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
+    waits = first == STANDS and len(found) == 2  # "gets up after three seconds"
     if words.downs.match(first) and known(first).action in LOW:
         found.insert(0, Clause(STANDS, seconds=BEFORE))
-    elif stands and read(SITS).action in LOW:
-        if words.ups.match(first):
-            found.insert(0, Clause(SITS, seconds=BEFORE))
-        elif first == STANDS and words.ups.match(found[-1].text) and len(found) == 2:
-            found[0] = replace(found[0], text=SITS)  # "gets up after three seconds"
-    return [_plainly(each, learned, alone=len(found) == 1, read=read) for each in found]
+    elif _says("ups", found[waits].text, read) and read(SITS).action in LOW:
+        sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
+        found[:waits] = [sits]
+    return [_plainly(each, read, alone=len(found) == 1) for each in found]
 
 
-def _plainly(clause: Clause, learned: Collection[str], read: Read, *, alone: bool) -> Clause:
+def _says(name: str, text: str, read: Read) -> bool:
+    """Whether a text is one of a pattern of `PLAINLY`, whose words `read` understands."""
+    own, said = PLAINLY[name]
+    return bool(vars(all_words())[name].fullmatch(text)) and read(said).action == own.action
+
+
+def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     """A clause in words of the tower; a bend that is all there is may be a walk."""
-    words, arms = all_words(), clause.meanwhile
-    text = _bared(clause.text, read) if arms or not alone else clause.text
-    if "ups" in learned:
-        text = words.ups.sub(STANDS, text)
-    if "bends" in learned and not alone and _surely(read(text)) != "turn":
-        text = words.bends.sub(f"turns {side_of(text)}", text)
-    if "posed" in learned and words.posed.fullmatch(arms) and _surely(read(arms)) != "raise":
+    text, arms = clause.text, clause.meanwhile
+    text = _bared(text, read) if arms or not alone else text
+    if _says("ups", text, read):
+        text = STANDS
+    if not alone and _says("bends", text, read) and _surely(read(text)) != "turn":
+        text = f"turns {side_of(text)}"
+    if _says("posed", arms, read) and _surely(read(arms)) != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
     spot = place_kept(text) if clause.metres is clause.degrees is None else None
     if spot and _surely(read(rest := _without(text, spot))) in GOING:
@@ -183,7 +183,7 @@ def _bared(text: str, read: Read) -> str:
 def whole(sentence: str, found: Sequence[Clause]) -> str:
     """A sentence as one sample hears it: without what it denies, if one plain clause is left."""
     text, first = tidied(sentence), found[0]
-    cut = len(found) == 1 and first.plain and first.text != _trimmed(plain_text(text))
+    cut = first.text != _trimmed(plain_text(text)) and len(found) == 1 and first.plain
     return first.text if cut else text
 
 
@@ -207,9 +207,8 @@ def _staying(text: str, read: Read) -> str:
         if re.search("[不没别勿]", left[-4:]):
             action = None
         stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
-        if (
-            stays and action == "crouch-walk"
-        ):  # "crouches and stays down", not "sneaks, staying low"
+        # "crouches and stays down", not "sneaks, staying low"
+        if stays and action == "crouch-walk":
             whole = _surely(read(_measured(_trimmed(own + match[0])).text))
             if whole == "squat" or words.crouches.search(own):
                 left, action = f"{left[: len(left) - len(own)]}{SQUATS}", "squat"
@@ -343,6 +342,8 @@ def _joined(text: str, read: Read) -> list[str]:
         for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
         if text[start:stop].strip(EDGES)
     ]
+    if len(pieces) < 2:
+        return [text]
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
     # The best ways up to a piece, one for what their last part is.
@@ -445,7 +446,7 @@ def _parted(text: str, read: Read) -> Clause | None:
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
     said = bool(marks or words.throughout.search(text))
-    each = names_both(text)
+    each, poses = names_both(text), words.posed.finditer(text)
     for cuts, sure, enough in (
         (marks, SURE_AT_MARK, SURE_AT_MARK),
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
@@ -463,7 +464,7 @@ def _parted(text: str, read: Read) -> Clause | None:
         ]
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
-    for pose in words.posed.finditer(text):
+    for pose in poses:
         rest = f"{text[: pose.start()].rstrip()} {text[pose.end() :].lstrip()}"
         pair = _pair(rest, pose[0], read, SURE)
         if pair and (pair.one_arm_each or not pair.arms_alone):
@@ -585,9 +586,7 @@ def _counted(clause: Clause) -> Clause:
         number = int(value_of(next(filter(None, match.groups()))))
     else:
         return clause
-    if not 1 < number <= MAX_COUNT:
-        return clause
-    rest = _without(clause.text, match)
+    rest = _without(clause.text, match) if 1 < number <= MAX_COUNT else ""
     return replace(clause, text=rest, count=number) if rest else clause
 
 

@@ -56,7 +56,7 @@ from .path import (
     time_path,
     turned,
 )  # fmt: skip
-from .sentence import GOING, LOW, PLAIN, Clause, Reading, clauses, whole
+from .sentence import GOING, LOW, Clause, Reading, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
@@ -85,19 +85,23 @@ class SentenceGenerator:
 
     def __init__(self, generator: TextToMotion) -> None:
         self.generator = generator
-        self.card, self.text = generator.card, generator.text
-        self._read: dict[str, list[Clause]] = {}
-        self._scoped: dict[str, ScopeResult | None] = {}
+        self.card, self.text, self.scope = generator.card, generator.text, generator.scope
+        self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
+        self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
         self._bent, self._told = dict[str, float](), set[str]()
         self._heights: dict[tuple[str, int], float] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
-            if not self._scoped:  # which each sentence asks for
-                self._scoped |= zip(PLAIN, self.generator.read(PLAIN), strict=True)
             self._read[prompt] = clauses(prompt, self._reading)
         return self._read[prompt]
+
+    def whole(self, prompt: str) -> str:
+        """A prompt as one sample hears it."""
+        if prompt not in self._whole:
+            self._whole[prompt] = whole(prompt, self.clauses(prompt))
+        return self._whole[prompt]
 
     def generate(
         self,
@@ -121,7 +125,7 @@ class SentenceGenerator:
         Raises:
             UserError: as `TextToMotion.generate`.
         """
-        asked, prompts = prompts, [whole(prompt, self.clauses(prompt)) for prompt in prompts]
+        asked, prompts = prompts, [self.whole(prompt) for prompt in prompts]
         sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
@@ -156,14 +160,13 @@ class SentenceGenerator:
                 for index, own in zip(rows, several, strict=True)
             }
 
-        scale = guidance_scale
-        for again in retry_seeds(seed):
-            if not plain:
-                break
+        scale, seeds = guidance_scale, retry_seeds(seed)
+        while plain and (again := next(seeds, None)) is not None:
             for index, others in sampled(plain, again, scale).items():
-                old, does, prompt = made.get(index, others), self._does, prompts[index]
-                made[index] = [new if does(prompt, new) and not does(prompt, was) else was
-                               for was, new in zip(old, others, strict=True)]  # fmt: skip
+                does, old = partial(self._does, prompts[index]), made.get(index)
+                made[index] = others if old is None else [
+                    was if does(was) or not does(new) else new
+                    for was, new in zip(old, others, strict=True)]  # fmt: skip
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
             if guidance_scale is None:
                 scale = INSISTING * self.generator.network.generation.guidance_scale
@@ -192,10 +195,10 @@ class SentenceGenerator:
     def missed(self, prompt: str, motion: Motion) -> str | None:
         """A line if a motion does not show the action of its prompt, although it was sampled again;
         None where kinematics do not see it, of clauses, measures and a way that turns as well."""
-        (first, *others), scope = self.clauses(prompt), self.generator.scope
+        (first, *others), scope = self.clauses(prompt), self.scope
         action = self._nearest(first.text)
         missed = scope and action in scope.checked and not self._does(first.text, motion)
-        if others or not first.plain or self._turns(first) or not missed:
+        if others or not missed or not first.plain or self._turns(first):
             return None
         return (
             f"prompt {prompt!r}, read as {action!r}: none of {TRIES} samples shows that, by how"
@@ -218,42 +221,43 @@ class SentenceGenerator:
         return None if others else self._miss(Clause(first.text), math.inf)
 
     def _warnings(self, prompt: str, *, again: bool = True) -> list[str | None]:
+        if again and prompt in self._lines:
+            return self._lines[prompt]
         self._told.add(prompt)
         parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
         if len(texts) == 1:  # known without its measures, or with them
-            lines = self.generator.scope_warnings([whole(prompt, parts)], again=again)
-        if len(texts) > 1 or not (parts[0].plain or lines == [None]):
+            lines = self.generator.scope_warnings([self.whole(prompt)], again=again)
+        if len(texts) > 1 or not (lines == [None] or parts[0].plain):
             lines = self.generator.scope_warnings(texts, again=again)
-        scope = self.generator.scope
-        return [unlearned(text, scope) or line for text, line in zip(texts, lines, strict=True)]
+        both = zip(texts, lines, strict=True)
+        lines = [unlearned(text, self.scope) or line for text, line in both]
+        return self._lines.setdefault(prompt, lines) if again else lines
 
     # ------------------------------------------------------------ one sentence
 
     def _by_arms(self, text: str) -> bool:
         """Whether a text asks for what arms do while the feet stand: its motion faces one way."""
-        scope = self.generator.scope
-        return scope is not None and self._nearest(text) in scope.arms
+        return self.scope is not None and self._nearest(text) in self.scope.arms
 
     def _steady(self, text: str, *, alone: bool = True) -> tuple[int, ...]:
         """The columns of the root row that have no mean in a text's motion: who does not leave his
         place ends where he began, unless something comes before; whose arms move faces one way."""
-        scope = self.generator.scope
-        if alone and scope is not None and self._nearest(text) in scope.still:
+        if alone and self.scope is not None and self._nearest(text) in self.scope.still:
             return FORWARD, LATERAL, YAW_RATE
         return (YAW_RATE,) if self._by_arms(text) else ()
 
     def _rested(self, motion: Motion, *texts: str, held: bool = False) -> Motion:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture; its
         end is left as it is where that is `held`."""
-        scope = self.generator.scope
-        asked = scope is not None and any(self._nearest(text) in scope.gestures for text in texts)
+        gestures = () if self.scope is None else self.scope.gestures
+        asked = any(self._nearest(text) in gestures for text in texts)
         return rest_to_rest(motion, held=held) if asked else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
         None where kinematics cannot see that."""
-        action, scope, side = self._nearest(text), self.generator.scope, side_of(text)
+        action, scope, side = self._nearest(text), self.scope, side_of(text)
         if scope is None or action is None:
             return None
         seen = [ACTIONS[action]] if action in scope.checked else []
@@ -268,7 +272,7 @@ class SentenceGenerator:
 
     def _miss(self, clause: Clause, frames: float) -> Miss | None:
         """How far a passage of so many frames is from showing its clause and ending at rest."""
-        wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.generator.scope
+        wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.scope
         action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
         rests = scope is not None and action in scope.gestures
         if action is None or frames < LEAST * fps or not (rests or wanted):
@@ -293,7 +297,7 @@ class SentenceGenerator:
 
     def _reading(self, text: str) -> Reading:
         """What a text alone asks for, even where it seldom comes out."""
-        found, scope = self._scope_result(text), self.generator.scope
+        found, scope = self._scope_result(text), self.scope
         if found is None or scope is None or not found.nearest:
             return Reading()
         action = found.nearest[0]
@@ -314,10 +318,9 @@ class SentenceGenerator:
         fit = isinstance(seconds, int | float) and math.isfinite(seconds) and seconds > 0
         if not fit or not prompt.strip():
             return True  # refused there, with a clear line
-        parts = self.clauses(prompt)
-        fits = self.generator.length_warning(seconds) is None
-        one = len(parts) == 1 and parts[0].plain and not self._applauds(parts[0])
-        return fits and one and not self._turns(parts[0])
+        first, *others = self.clauses(prompt)
+        one = self.generator.length_warning(seconds) is None and not others and first.plain
+        return one and not self._applauds(first) and not self._turns(first)
 
     def _is_single(self, clause: Clause) -> bool:
         """Whether a clause asks for something that is seen once, and for no more of it."""
@@ -342,13 +345,12 @@ class SentenceGenerator:
     def _bend(self, text: str) -> float:
         """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
         what the network makes of it turns, and does not stop turning (experiments, section 44)."""
-        side, around = side_of(text), goes_round(text)
-        if self._nearest(text) not in GOING or not (around or side != "both"):
+        if self._nearest(text) not in GOING or (side_of(text) == "both" and not goes_round(text)):
             return 0.0
         if text not in self._bent:
             turning = natural_gait(self.generator, Passage(text, 1), Sampling()).turning
-            left = turning > 0 if side == "both" else side == "left"
-            angle = 360.0 if around else 0.0 if abs(turning) < TURNING else CORNER
+            left = turning > 0 if (side := side_of(text)) == "both" else side == "left"
+            angle = 360.0 if goes_round(text) else 0.0 if abs(turning) < TURNING else CORNER
             self._bent[text] = angle if left else -angle
         return self._bent[text]
 
@@ -428,13 +430,12 @@ class SentenceGenerator:
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
         led |= any(constraint is not None for _, constraint in stretches)
-        repeated = any(part.count > 1 for part in parts)
         pieces = stream_features(
             self.generator,
             [passage for passage, _ in stretches],
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
             window=self._window(),
-            overlap=REPEATED_OVERLAP if repeated else OVERLAP,
+            overlap=REPEATED_OVERLAP if any(part.count > 1 for part in parts) else OVERLAP,
             sampling=sampling,
         )
         features = torch.cat(list(pieces))
@@ -489,8 +490,7 @@ class SentenceGenerator:
         """Metres of the pelvis in what a text asks for."""
         key = text, sampling.seed
         if key not in self._heights:
-            gait = natural_gait(self.generator, Passage(text, 1), sampling)
-            self._heights[key] = gait.height
+            self._heights[key] = natural_gait(self.generator, Passage(text, 1), sampling).height
         return self._heights[key]
 
     def _window(self) -> int:
