@@ -154,7 +154,8 @@ def export_onnx(
     options.check_folder("--out", out)
 
     from ..shared.model.checkpoint import read_card, resolve_model, wrong_kind
-    from ..shared.model.onnx_card import EXPORTED, ONNX_CARD, OnnxCard, require_packages
+    from ..shared.model.onnx_card import EXPORTED, ONNX_CARD, OnnxCard
+    from ..shared.model.onnx_graphs import require_packages
 
     require_packages("onnx", "onnxscript", "onnxruntime")
     name = environment.TEXT_MODEL if model is None else model

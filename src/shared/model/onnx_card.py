@@ -1,4 +1,4 @@
-"""What an ONNX export says about itself (onnx.json), and its graphs in onnxruntime; no PyTorch.
+"""What an ONNX export says about itself (onnx.json); no PyTorch.
 
 An export is a model folder with graphs beside the weights. The graphs hold no weights of their own:
 their initializers are external data in model.safetensors, int8 and float16 ones with the few nodes
@@ -7,9 +7,8 @@ that make float32 of them, which onnxruntime folds away on loading. docs/onnx.md
 
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
-import numpy as np
 from pydantic import ValidationError
 
 from ..config_audio import AudioNetworkConfig
@@ -17,10 +16,7 @@ from ..config_schema import Config, DiffusionConfig, PostProcessingConfig
 from ..device import computes_on_cpu
 from ..errors import UserError, first_fault
 from ..io.files import load_json, sha256_file
-from .checkpoint import WEIGHTS_FILE, read_card, resolve_model
-
-if TYPE_CHECKING:
-    from torch import Tensor
+from .checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
 
 ONNX_CARD = "onnx.json"
 OPSET = 18
@@ -147,29 +143,18 @@ class AudioOnnxCard(OnnxCard):
 CardT = TypeVar("CardT", bound=OnnxCard)
 
 
-def require_packages(*names: str) -> None:
-    """Raises UserError, naming the extra, when a package of it is missing."""
-    missing = [name for name in names if find_spec(name) is None]
-    if missing:
-        raise UserError(
-            f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
-            " install the project with its extra `onnx`, or:"
-            " pip install onnx onnxscript onnxruntime"
-        )
-
-
-def read_onnx_card(folder: str | Path, kind: type[CardT]) -> CardT:
-    """The card of an export whose graphs are whole.
+def read_onnx_card(folder: str | Path, kind: type[CardT], model: ModelCard | None = None) -> CardT:
+    """The card of an export whose graphs are whole; `model` is the model's, where it was read.
 
     Raises:
         UserError: no export there, one that this version cannot read, or a damaged graph.
     """
     path = Path(folder) / ONNX_CARD
     if not path.is_file():
-        model = f" --model {folder}" if _could_be_exported(folder) else ""
+        named = f" --model {folder}" if _could_be_exported(folder) else ""
         raise UserError(
             f"{folder} holds no ONNX export ({ONNX_CARD} is missing); make one with"
-            f" `export-onnx{model} --out DIR` and name DIR"
+            f" `export-onnx{named} --out DIR` and name DIR"
         )
     try:
         card = kind.model_validate(load_json(path))
@@ -177,7 +162,7 @@ def read_onnx_card(folder: str | Path, kind: type[CardT]) -> CardT:
         raise UserError(f"{path}: {first_fault(error)}; export the model again") from error
     except (OSError, ValueError) as error:
         raise UserError(f"{path} cannot be read ({error}); export the model again") from error
-    if card.model != read_card(Path(folder)).content_hash:
+    if card.model != (model or read_card(Path(folder))).content_hash:
         raise UserError(f"{path} was made from other weights than these; export the model again")
     for name, graph in card.graphs.items():
         file = path.with_name(name)
@@ -194,44 +179,6 @@ def _could_be_exported(name_or_folder: str | Path) -> bool:
         return read_card(resolve_model(name_or_folder)).kind in EXPORTED
     except UserError:
         return False
-
-
-def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) -> Any:
-    """An onnxruntime session of a graph, on so many threads of the CPU.
-
-    Args:
-        spinning: whether threads that have nothing to do wait for work in a loop. Large products
-            are done sooner so; between many small ones it takes the core from those that work.
-
-    Raises:
-        UserError: the package is missing, or it cannot load the graph.
-    """
-    require_packages("onnxruntime")
-    import onnxruntime
-
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = threads
-    options.log_severity_level = 3  # errors
-    if not spinning:
-        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
-    options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
-    try:
-        return onnxruntime.InferenceSession(
-            str(folder / name), options, providers=["CPUExecutionProvider"]
-        )
-    except Exception as error:  # onnxruntime's own types derive from it directly
-        reason = str(error).splitlines()[0]
-        raise UserError(
-            f"onnxruntime cannot load {folder / name} ({reason}); update it, or export again"
-        ) from error
-
-
-def run(session: Any, **inputs: "Tensor | np.ndarray") -> "list[Tensor]":
-    """All outputs of a session, by the names of its inputs."""
-    from ..tensors import torch
-
-    arrays = {name: np.ascontiguousarray(values) for name, values in inputs.items()}
-    return [torch.from_numpy(array) for array in session.run(None, arrays)]
 
 
 RUNTIMES = ("auto", "torch", "onnx")

@@ -26,10 +26,9 @@ from ..model.onnx_card import (
     AUDIO_KIND,
     AudioOnnxCard,
     chosen_runtime,
-    open_graph,
     read_onnx_card,
-    run,
 )
+from ..model.onnx_graphs import open_graph, run
 
 log = logging.getLogger(__name__)
 

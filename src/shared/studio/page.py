@@ -27,9 +27,9 @@ from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE, OutOfDomainDetector
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
-from ..model.generation.onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH
 from ..model.noise import NoiseSchedule, sampling_timesteps
-from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card, require_packages
+from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card
+from ..model.onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, require_packages
 from ..motion.postprocess.whole import smoothing_weights
 from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS

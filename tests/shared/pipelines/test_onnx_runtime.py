@@ -14,11 +14,12 @@ from typer.testing import CliRunner
 from src.cli.tools import app
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.errors import UserError
-from src.shared.model import onnx_card
+from src.shared.model import onnx_graphs
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.checkpoint import WEIGHTS_FILE, ModelCard
-from src.shared.model.onnx_card import AUDIO_GRAPHS, AudioOnnxCard, read_onnx_card, run
+from src.shared.model.onnx_card import AUDIO_GRAPHS, AudioOnnxCard, read_onnx_card
 from src.shared.model.onnx_card import ONNX_CARD as CARD_FILE
+from src.shared.model.onnx_graphs import run
 from src.shared.pipelines.runtime import OnnxRuntime
 from src.shared.pipelines.song_sampler import SongSampler, SongSampling
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet_config, walk
@@ -220,7 +221,7 @@ def test_an_export_that_is_stopped_leaves_nothing(
 def test_missing_package_names_the_extra(
     home: Path, runtime: OnnxRuntime, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(onnx_card, "find_spec", lambda name: None)
+    monkeypatch.setattr(onnx_graphs, "find_spec", lambda name: None)
     with pytest.raises(UserError, match=r"onnxruntime.*pip install onnx"):
         OnnxRuntime.from_folder(home / "onnx")
 

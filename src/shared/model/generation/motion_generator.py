@@ -490,9 +490,9 @@ def _from_weights(folder: Path, card: ModelCard) -> Loaded:
 def _from_export(folder: Path, card: ModelCard) -> Loaded:
     """The networks of `export-onnx`."""
     from ..onnx_card import TextOnnxCard, read_onnx_card
-    from .onnx_networks import OnnxDenoiser, OnnxTextTower
+    from ..onnx_graphs import OnnxDenoiser, OnnxTextTower
 
-    export = read_onnx_card(folder, TextOnnxCard)
+    export = read_onnx_card(folder, TextOnnxCard, card)
     check_weights(folder, card.weights)
     threads = sampling_threads()
     return (

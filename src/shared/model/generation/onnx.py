@@ -5,7 +5,7 @@ network that hears them, opened [B, A] for one with adapters, closeness [B] of a
 denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
 the entry is given) -> prediction. adapted.onnx hears the weights of each sample's adapter as well
-(onnx_networks.py); denoiser.onnx is the same network where no text opens one.
+(onnx_graphs.py); denoiser.onnx is the same network where no text opens one.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
@@ -27,10 +27,10 @@ from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..layers.transformer import AdaptedLinear
 from ..onnx_card import TextOnnxCard, TokenizerInfo
 from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
+from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser
 from .motion_generator import TextToMotion, as_captured
-from .onnx_networks import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 
 FILES = (
     CARD_FILE,

@@ -18,8 +18,8 @@ from src.shared.model.generation.onnx import (
     TEXT_GRAPH,
     export_text,
 )
-from src.shared.model.generation.onnx_networks import adapter_weights
-from src.shared.model.onnx_card import READY, TURNED, TextOnnxCard, open_graph, read_onnx_card
+from src.shared.model.onnx_card import READY, TURNED, TextOnnxCard, read_onnx_card
+from src.shared.model.onnx_graphs import adapter_weights, open_graph
 
 onnx = pytest.importorskip("onnx")
 onnxruntime = pytest.importorskip("onnxruntime")

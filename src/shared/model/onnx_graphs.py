@@ -1,4 +1,4 @@
-"""The text tower and the denoiser of an export, computed by onnxruntime, where PyTorch's stand.
+"""The graphs of an export in onnxruntime: its text tower and denoiser, where PyTorch's stand.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
@@ -6,20 +6,69 @@ Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ...config_schema import ClipConfig, NetworkConfig
-from ...tensors import Tensor, nn, torch
-from ..checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
-from ..clip.features import TextFeatures, null_features
-from ..onnx_card import TextOnnxCard, open_graph, run
+from ..config_schema import ClipConfig, NetworkConfig
+from ..errors import UserError
+from ..tensors import Tensor, nn, torch
+from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
+from .clip.features import TextFeatures, null_features
+from .onnx_card import TextOnnxCard
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
 ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with an adapter, for texts that open one
 ADAPTERS = ".adapters."
+
+
+def require_packages(*names: str) -> None:
+    """Raises UserError, naming the extra, when a package of it is missing."""
+    missing = [name for name in names if find_spec(name) is None]
+    if missing:
+        raise UserError(
+            f"ONNX needs the package {' and '.join(missing)}, which is not installed;"
+            " install the project with its extra `onnx`, or:"
+            " pip install onnx onnxscript onnxruntime"
+        )
+
+
+def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) -> Any:
+    """An onnxruntime session of a graph, on so many threads of the CPU.
+
+    Args:
+        spinning: whether threads that have nothing to do wait for work in a loop. Large products
+            are done sooner so; between many small ones it takes the core from those that work.
+
+    Raises:
+        UserError: the package is missing, or it cannot load the graph.
+    """
+    require_packages("onnxruntime")
+    import onnxruntime
+
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = threads
+    options.log_severity_level = 3  # errors
+    if not spinning:
+        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
+    try:
+        return onnxruntime.InferenceSession(
+            str(folder / name), options, providers=["CPUExecutionProvider"]
+        )
+    except Exception as error:  # onnxruntime's own types derive from it directly
+        reason = str(error).splitlines()[0]
+        raise UserError(
+            f"onnxruntime cannot load {folder / name} ({reason}); update it, or export again"
+        ) from error
+
+
+def run(session: Any, **inputs: Tensor | np.ndarray) -> list[Tensor]:
+    """All outputs of a session, by the names of its inputs."""
+    arrays = {name: np.ascontiguousarray(values) for name, values in inputs.items()}
+    return [torch.from_numpy(array) for array in session.run(None, arrays)]
 
 
 def adapter_weights(folder: Path, opened: Sequence[float]) -> np.ndarray:
