@@ -182,8 +182,10 @@ def check_ranges(arguments: Mapping[str, Any]) -> None:
     Raises:
         UsageError: naming the flag and its range.
     """
-    for name, limits in RANGES.items():
-        check_range(name, arguments.get(name), *limits)
+    given = [(flag_of(name), arguments[name], *limits)
+             for name, limits in RANGES.items() if arguments.get(name) is not None]  # fmt: skip
+    for each in given:
+        in_range(*each)
 
 
 def check_range(name: str, value: float | None, least: float, most: float) -> None:

@@ -89,7 +89,7 @@ def convert(
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
     folder = named[-1] if format else named[-1].parent
-    note_replaced((path for job in jobs for _, path in job.targets), folder)
+    note_replaced([path for job in jobs for _, path in job.targets], folder)
     reading = {"mapping": mapping, "unit": unit, "up": up, "fps": fps, "skeleton": asf}
     how = How(reading | {"source_fps": source_fps}, root, names, skeleton, mapping)
     tasks = {anchored(job) if scheduler else job: job for job in jobs}

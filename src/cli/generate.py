@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..shared.environment import compute_without_torch
 from ..shared.errors import UsageError
 from . import generate_files as files
 from . import options
@@ -81,7 +82,8 @@ def produce(request: Request) -> dict[str, Any]:
         UserError: as the model, the song or the files.
     """
     check_runtime(request)
-    request.keep_light()
+    if request.light:
+        compute_without_torch()
     if (song := request.song) is not None:
         from ..shared.audio.sound import check_sound
 

@@ -109,7 +109,7 @@ def write_motions(
     rows: list[dict[str, Any]] = []
     names = stems([motion.text for motion in motions], num_samples)
     files = [{name: out / f"{stem}.{ending(name)}" for name in formats} for stem in names]
-    note_replaced((path for paths in files for path in paths.values()), out)
+    note_replaced([path for paths in files for path in paths.values()], out)
     with progress_bar("motions written") as progress:
         for motion, paths in zip(motions, files, strict=True):
             for path in paths.values():

@@ -3,6 +3,7 @@
 import csv
 import io
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -245,23 +246,23 @@ class Request:
         settings = self.post_processing or []
         return MotionGenerator(
             self.text_model,
-            self.audio_model,
+            self.model,
             device=self.device,
-            runtime=self.runtime or "auto",
+            runtime="onnx" if self.light else self.runtime or "auto",
             memory=self.memory_folder,
             judge=self.judge,
             post_processing=[] if self.path_alone else settings,
             path_post_processing=settings if self.path_alone else [],
         )
 
-    def keep_light(self) -> None:
-        """Leave PyTorch unimported where onnxruntime does all that is asked."""
+    @cached_property
+    def light(self) -> bool:
+        """Whether onnxruntime does all that is asked; songs and judges are PyTorch's."""
         from ..shared.model.onnx_card import chosen_runtime
 
-        alone = not self.audio and self.num_samples == 1  # songs and judges are PyTorch's
-        runtime = self.runtime or "auto"
-        if alone and chosen_runtime(runtime, self.text_model, self.device) == "onnx":
-            environment.compute_without_torch()
+        if self.audio or self.num_samples > 1:
+            return False
+        return chosen_runtime(self.runtime or "auto", self.text_model, self.device) == "onnx"
 
     def body_formats(self) -> list[str]:
         """Formats of a body's files."""

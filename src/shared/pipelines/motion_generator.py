@@ -91,8 +91,8 @@ class MotionGenerator:
     ) -> None:
         if runtime not in RUNTIMES:
             raise UsageError(f"runtime {runtime!r} is unknown; choose from {', '.join(RUNTIMES)}")
-        self._text, self._body, self._path = text, post_processing, path_post_processing
-        self._audio = default_audio_model() if audio is None else audio
+        self._text, self._audio = text, audio
+        self._body, self._path = post_processing, path_post_processing
         self._device, self._runtime, self._memory, self._judge = device, runtime, memory, judge
 
     @classmethod
@@ -145,7 +145,7 @@ class MotionGenerator:
         from ..memory.figures import is_figure_memory
         from .song import SongGenerator
 
-        model: SongGenerator[Any] | str | Path = self._audio
+        model = default_audio_model() if self._audio is None else self._audio
         if not isinstance(model, SongGenerator):
             memory = None
             if self._memory is not None and not is_figure_memory(self._memory):
@@ -248,14 +248,14 @@ class MotionGenerator:
             return []
         if progress is not None and not callable(progress):
             raise UsageError(f"progress is {progress!r}; give a function of two numbers")
+        lengths, labels = _lengths(seconds, len(texts)), _labels(tags, len(texts))
         judge = TextJudge(self.tower) if num_samples > 1 else None
-        sampler = PromptSampler(self.sentences, judge)
-        return sampler.sample(
+        return PromptSampler(self.sentences, judge).sample(
             texts,
             num_samples,
             return_all=return_all,
-            seconds=_lengths(seconds, len(texts)),
-            tags=_labels(tags, len(texts)),
+            seconds=lengths,
+            tags=labels,
             **vars(sampling),
             foot_lock=foot_lock,
             progress=progress,
