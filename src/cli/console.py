@@ -182,8 +182,7 @@ def check_ranges(arguments: Mapping[str, Any]) -> None:
     Raises:
         UsageError: naming the flag and its range.
     """
-    given = [(flag_of(name), arguments[name], *limits)
-             for name, limits in RANGES.items() if arguments.get(name) is not None]  # fmt: skip
+    given = [(flag_of(n), arguments[n], *RANGES[n]) for n in RANGES if arguments.get(n) is not None]
     for each in given:
         in_range(*each)
 

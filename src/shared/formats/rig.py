@@ -6,6 +6,7 @@ Legend: T frames, N joints."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Protocol, Self
 
 import numpy as np
@@ -172,9 +173,11 @@ class Rig:
         """Position of each joint at rest [N,3]."""
         return rest_positions(self.parents, self.offsets)
 
-    def children(self, joint: int) -> list[int]:
-        """Joints whose parent this one is."""
-        return [child for child, parent in enumerate(self.parents) if parent == joint]
+    @cached_property
+    def children(self) -> list[list[int]]:
+        """Of each joint those whose parent it is."""
+        joints = range(len(self.parents))
+        return [[child for child in joints if self.parents[child] == joint] for joint in joints]
 
 
 @dataclass(frozen=True, eq=False)

@@ -126,8 +126,7 @@ class OnnxTextTower(nn.Module):
         """Ids and mask [B, L] -> TextFeatures."""
         outputs = run(self._session, input_ids=input_ids, attention_mask=attention_mask)
         found = dict(zip(self._outputs, outputs, strict=True))
-        mask = attention_mask.bool()
-        pooled = found["pooled"]
+        mask, pooled = attention_mask.bool(), found["pooled"]
         alike = pooled[:, None].expand(*mask.shape, self.embed_dim)  # which nobody will hear
         tokens, closeness = found.get("tokens", alike), found.get("closeness")
         return TextFeatures(pooled, tokens, mask, found.get("opened"), closeness)

@@ -36,9 +36,9 @@ def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
 
 def write_bvh_clip(clip: RigClip, path: str | Path) -> Path:
     """Write a rig's motion in its own unit and Euler orders; raises UserError if it cannot."""
-    rig, moving = clip.rig, clip.moving()
+    rig, moving, frames = clip.rig, clip.moving(), clip.num_frames
     columns = []
-    angles = np.empty((clip.num_frames, len(rig.names), 3))
+    angles = np.empty((frames, len(rig.names), 3))
     for axes in set(rig.orders):
         joints = [joint for joint, other in enumerate(rig.orders) if other == axes]
         angles[:, joints] = np.rad2deg(matrices_to_euler(clip.rotations[:, joints], axes))
@@ -47,7 +47,7 @@ def write_bvh_clip(clip: RigClip, path: str | Path) -> Path:
         columns += [clip.translations[:, joint]] if joint in moving else []
         columns.append(angles[:, joint])
     lines = ["HIERARCHY", *_hierarchy(rig, order, moving), "MOTION"]
-    lines += [f"Frames: {clip.num_frames}", f"Frame Time: {1.0 / clip.fps:.8f}"]
+    lines += [f"Frames: {frames}", f"Frame Time: {1.0 / clip.fps:.8f}"]
     lines += [" ".join(f"{v:.5f}" for v in row) for row in np.concatenate(columns, 1).tolist()]
     write_text(Path(path), "\n".join(lines) + "\n")
     return Path(path)
@@ -106,7 +106,7 @@ def _depth_first(rig: Rig) -> list[int]:
     order, stack = [], [0]
     while stack:
         order.append(stack.pop())
-        stack += reversed(rig.children(order[-1]))
+        stack += reversed(rig.children[order[-1]])
     return order
 
 

@@ -135,7 +135,7 @@ def _nodes(rig: Rig) -> list[dict[str, Any]]:
         node: dict[str, Any] = {"name": name, "translation": place.tolist()}
         if np.abs(turns[joint, :3]).max() > 1e-7:
             node["rotation"] = turns[joint].tolist()
-        if children := rig.children(joint):
+        if children := rig.children[joint]:
             node["children"] = children
         nodes.append(node)
     return nodes
