@@ -426,11 +426,8 @@ def _at_once(first: str, second: str, read: Read) -> Clause | None:
     """A clause and what the arms do meanwhile, if a word says so, a participle or "with" begins the
     second one, or one arm does the one and the other arm the other; else None."""
     words = all_words()
-    said = any(
-        pattern.search(each)
-        for each in (first, second)
-        for pattern in (words.meanwhile, words.throughout)
-    )
+    marks = words.meanwhile, words.throughout
+    said = any(mark.search(each) for each in (first, second) for mark in marks)
     if pair := _pair(first, second, read, SURE_IF_SAID if said else SURE):
         sign = words.sign.match(second)
         manner = words.manner.search(first) and pair.clause.meanwhile == first
