@@ -404,7 +404,7 @@ def plot(
     options.check_file("--out", picture)
 
     if file.suffix.lower() in (".json", ".jsonl"):
-        from ..shared.evaluation.plots import plot_losses, read_losses
+        from ..train.run_log import plot_losses, read_losses
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:

@@ -1,15 +1,16 @@
-"""What a training run reports: log.jsonl, TensorBoard, progress on stderr; its epochs read back."""
+"""What a training run reports: log.jsonl, TensorBoard, progress on stderr; read back, and drawn."""
 
 import json
 import math
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -20,7 +21,9 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from ..shared.io.files import atomic_write
+from ..shared.errors import UserError
+from ..shared.evaluation.plots import legend, new_figure, save_figure
+from ..shared.io.files import atomic_write, parse_json
 
 VALIDATION = "validation/"  # begins the names of figures that are not of training
 
@@ -233,3 +236,101 @@ def results_table(epochs: Sequence[Epoch], kept: Epoch) -> str:
         cells = ["-" if value is None else f"{value:.4g}" for value in values]
         lines.append(f"| {name} | {' | '.join(cells)} | {ratio} |")
     return "\n".join(lines) + "\n"
+
+
+# ---------------------------------------------------------------- the losses of a run, drawn
+
+LOSSES = (
+    "loss", "diffusion", "decoder-position", "velocity-coherence", "accel-coherence", "jerk",
+)  # fmt: skip
+MAX_PANELS = 12
+
+
+def plot_losses(
+    history: Mapping[str, Sequence[float]], path: str | Path, *, title: str = ""
+) -> Path:
+    """A curve for each loss of `read_losses` on a logarithmic scale, as .png, .pdf or .svg; TECH's
+    six losses come first where the run has them.
+    Raises UserError: nothing to draw, matplotlib is missing, or the file cannot be written."""
+    panels: dict[str, list[str]] = {name: [] for name in LOSSES}
+    for name in (name for name in history if name != "step"):  # validation/loss beside loss
+        panels.setdefault(name.rpartition("/")[2], []).append(name)
+    panels = dict([(name, curves) for name, curves in panels.items() if curves][:MAX_PANELS])
+    if not panels:
+        raise UserError(
+            f"cannot write {path}: the log holds no numbers to draw; name the log of a run"
+        )
+    columns = min(3, len(panels))
+    rows = math.ceil(len(panels) / columns)
+    figure = new_figure(5 * columns, 3.6 * rows)
+    for index, (panel, names) in enumerate(panels.items()):
+        axes = figure.add_subplot(rows, columns, index + 1)
+        for name in names:
+            values = np.asarray(history[name], dtype=np.float64)
+            known = np.isfinite(values)  # evaluations come more rarely than steps
+            steps = np.asarray(history["step"])[known]
+            label = name.rpartition("/")[0] or "training"
+            axes.plot(steps, values[known], marker="." if known.sum() < 50 else "", label=label)
+            if known.any():
+                axes.set_yscale("log" if values[known].min() > 0 else "symlog")
+        axes.set_title(panel, loc="left")
+        axes.set_xlabel("step")
+        if len(names) > 1:
+            legend(axes)
+    figure.suptitle(title)
+    return save_figure(figure, Path(path))
+
+
+def read_losses(path: str | Path) -> dict[str, list[float]]:
+    """The numbers of a run's log.jsonl or training_log.json by name, NaN where a step has none.
+    Raises UserError: missing, or neither of them."""
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise UserError(
+            f"{path}: cannot be read: {error}; name a log.jsonl or training_log.json"
+        ) from error
+    try:
+        rows = _rows(text)
+    except ValueError as error:
+        raise UserError(
+            f"{path}: is not the log of a run ({error}); name a log.jsonl or training_log.json"
+        ) from error
+    names = {name for row in rows for name, value in row.items() if _is_number(value)}
+    order = [name for name in dict.fromkeys(key for row in rows for key in row) if name in names]
+    history = {
+        name: [float(row[name]) if _is_number(row.get(name)) else math.nan for row in rows]
+        for name in order
+    }
+    return {"step": [float(number) for number in range(len(rows))]} | history
+
+
+def _rows(text: str) -> list[dict[str, Any]]:
+    """The figures of each step or epoch, under the names that log.jsonl has for them."""
+    try:
+        content = parse_json(text)
+    except ValueError:  # more than one object: a line each, the last maybe cut off by a kill
+        lines = text.splitlines()
+        whole = lines if text.endswith("\n") else lines[:-1]
+        content = [parse_json(line) for line in whole if line.strip()]
+    rows = content if isinstance(content, list) else [content]
+    if not rows or not all(isinstance(row, dict) for row in rows):
+        raise ValueError("it holds no rows")
+    return [_flat(row) for row in rows]
+
+
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    """An entry of training_log.json with its two tables in one: `loss`, `validation/loss`."""
+    flat = {name: value for name, value in row.items() if name != "epoch"}
+    for table, prefix in (("train", ""), ("validation", "validation/")):
+        found = flat.pop(table, None)
+        if isinstance(found, dict):
+            flat |= {prefix + name: value for name, value in found.items()}
+    return flat
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return False
+    return isinstance(value, float) or abs(value) < 2**1000  # a float holds it

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from src.shared.model.checkpoint import PRETRAINED
-from src.train.run_log import Epoch
+from src.train.run_log import Epoch, read_losses
 from tests.fuzz.target import Target, check_arrays
 
 SHIPPED = (
@@ -31,7 +31,6 @@ def _write(folder: Path) -> None:
 
 
 def _read(path: Path) -> None:
-    from src.shared.evaluation.plots import read_losses
     from src.shared.metrics.sanity import Bands
     from src.shared.model.clip.out_of_domain import OutOfDomainDetector
     from src.shared.model.clip.style_map import StyleMap
