@@ -1,9 +1,8 @@
 """Samples of embeddings: Fréchet distances, also with text and per label, and their variety.
 
-Letters: N samples, D channels. All in float64 NumPy: this never runs on a
-model's device. Keep D at 32 or less and N at 1000 or more: at N = 270 two samples of one
-distribution are already 18 apart in 128 dimensions, so each figure stands beside a real-against-
-real one.
+Letters: N samples, D channels. All in float64. Keep D at 32 or less and N at 1000 or more: at N =
+270 two samples of one distribution are already 18 apart in 128 dimensions, so each figure stands
+beside a real-against-real one.
 """
 
 from collections.abc import Sequence
@@ -112,13 +111,12 @@ def group_frechet(
 ) -> tuple[float, float, int] | None:
     """Fréchet distance label by label, beside the same with the labels shuffled.
 
-    Only labels with `GROUP_SIZE` samples on both sides take part, in `GROUP_AXES` principal axes of
-    the real sample, because a small group in many dimensions measures its own size. The shuffled
-    value pairs every label with the next one of a random cycle, so none meets itself.
+    Of labels with `GROUP_SIZE` samples on both sides, in `GROUP_AXES` principal axes of the real
+    sample: a small group in many dimensions measures its own size.
 
     Returns:
-        Mean distance to the same label and to a wrong one, and the number of labels; None when
-        fewer than two labels are large enough.
+        Mean distance to the same label and to a wrong one (the next of a random cycle), and the
+        number of labels; None when fewer than two labels are large enough.
     """
     project = Projection.fit(real, min(GROUP_AXES, real.shape[1]))
     made, true = np.asarray(generated_labels), np.asarray(real_labels)
@@ -154,11 +152,9 @@ def diversity(embeddings: np.ndarray, *, seed: int = 0) -> float:
 
 
 def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[float, int]:
-    """Multimodality of a sample in which some of the prompts [N] come again; embeddings [N, D].
-
-    All pairs of a prompt instead of ten random ones: the value that Guo's draw estimates, without
-    the draw. Mean distance of motions of one prompt, NaN where no prompt comes twice, and how many
-    prompts do.
+    """Multimodality of embeddings [N, D]: the mean distance of motions of one of the prompts [N],
+    NaN where none comes twice, and how many do. All pairs of a prompt: what ten random ones (Guo)
+    estimate.
 
     Raises ValueError: lengths that differ, NaN or infinity.
     """

@@ -80,16 +80,14 @@ def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
 def guo_retrieval(
     text: np.ndarray, motion: np.ndarray, equal_by: Sequence[Sequence[object]], *, seed: int = 0
 ) -> np.ndarray:
-    """R-precision in random batches of 32: each text ranks the motions of its batch.
-
-    A motion also counts as right when it shares the text's value in one of the columns of
-    `equal_by` (label group, caption), because that caption fits it just as well. Several right
-    answers in a batch make guessing easier; the chance row is computed by the same rule. The last,
-    incomplete batch is left out, as in the protocol.
+    """R-precision in random batches of 32, without an incomplete last one: each text ranks the
+    motions of its batch.
 
     Args:
         text, motion: [N, D], row i belongs together.
-        equal_by: columns of N values each; none: only row i is right for text i.
+        equal_by: columns of N values (label group, caption); a motion that shares one of them with
+            the text is right, too, since that caption fits it as well. The chance row has the same
+            rule, as several right answers make guessing easier.
 
     Returns:
         Chance of a right answer at 1, 2, 3 [3, Q], text by text in any order; their mean is the
@@ -172,8 +170,8 @@ PROTOCOLS = ("all", "threshold", "dissimilar", "batches")
 def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
     """Cosines [N, N] of texts (rows) and motions (columns) [N, D], float64.
 
-    Equal rows are multiplied once, so that equal embeddings are equally similar to the last bit:
-    a matrix product alone may round two copies of a row differently and break their tie.
+    Equal rows are multiplied once: a matrix product may round two copies differently, and break
+    their tie.
 
     Raises ValueError: shapes that differ, NaN or infinity, or a vector of length 0.
     """
@@ -193,18 +191,18 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
 
 
 def text_similarity(captions: Sequence[str], groups: Sequence[str] | None = None) -> np.ndarray:
-    """(1 + cosine) / 2 [N, N] of the captions' bags of n-grams; 1 inside a label group.
+    """(1 + cosine) / 2 [N, N] of the captions' bags of n-grams; 1 inside a label group, whose
+    captions are translations of the same labels.
 
-    TMR takes a sentence encoder (MPNet). Ours is hashed words, word pairs and stems, which no
-    judged model has a hand in: an encoder that calls all texts alike would make every answer
-    right. Captions of one label group are translations of the same labels, so they are alike.
+    Hashed words, word pairs and stems in place of TMR's sentence encoder (MPNet): no judged model
+    has a hand in them, and one that calls all texts alike would make every answer right.
     """
     different, row = np.unique(list(captions), return_inverse=True)
     buckets = [caption_buckets(str(caption)) for caption in different]
-    known = {bucket: at for at, bucket in enumerate(sorted({b for row in buckets for b in row}))}
+    known = np.unique(np.concatenate(buckets))
     bags = np.zeros((len(different), len(known)))
     for bag, found in zip(bags, buckets, strict=True):
-        np.add.at(bag, [known[bucket] for bucket in found], 1.0)
+        np.add.at(bag, np.searchsorted(known, found), 1.0)
     similarity = ((1 + cosines(bags, bags)) / 2)[row][:, row]
     if groups is not None:
         ids = np.unique(list(groups), return_inverse=True)[1]
@@ -215,11 +213,10 @@ def text_similarity(captions: Sequence[str], groups: Sequence[str] | None = None
 def dissimilar_subset(similarity: np.ndarray, size: int = SUBSET, *, seed: int = 0) -> np.ndarray:
     """Rows [at most `size`], ascending, of texts far from each other; similarity [N, N].
 
-    No two of them are more similar than `THRESHOLD`: of such a set a random one stays, so captions
-    from few templates make a smaller subset. TMR states the choice as a quadratic knapsack and
-    approximates it. Here the text that is most similar to all that are left goes, one after the
-    other, and then one text is exchanged for another as long as that lowers the sum of the
-    similarities.
+    Of texts that are more similar than `THRESHOLD` a random one stays, so captions from few
+    templates make a smaller subset. TMR approximates a quadratic knapsack; here the text most
+    similar to all that are left goes, one after the other, and then texts are exchanged as long as
+    that lowers the sum of the similarities.
     """
     unlike: list[int] = []
     for row in np.random.default_rng(seed).permutation(len(similarity)).tolist():
@@ -256,9 +253,8 @@ def recalls(
 
     Args:
         text, motion: [N, D], row i belongs together.
-        similarity: of the texts [N, N]; pairs above `THRESHOLD` count beside the own, the best
-            placed of the right answers decides, and guessing is easier: see the chance row. None =
-            only the own pair counts, though another caption may say the same.
+        similarity: of the texts [N, N]: pairs above `THRESHOLD` count beside the own, the best
+            placed decides. None = the own pair alone counts, whatever other captions say.
 
     Returns:
         [2, 6]: text to motion, motion to text; R@1, 2, 3, 5, 10 as fractions and the median of the
@@ -280,11 +276,10 @@ def recall_in_pools(
     *,
     seed: int = 0,
 ) -> np.ndarray:
-    """Protocol (a), or (b) if texts are given a similarity [N, N], in random pools of `size`.
+    """`recalls` in random pools of `size`, their mean (of medians, too) without an incomplete last.
 
     Pools of 32 are protocol (d) (Guo et al.). Recall falls as candidates are added, so samples of
-    different N only compare in pools of one size. Mean over the pools; an incomplete last one is
-    left out, and the median rank is the mean of the pools' medians. Returns what `recalls` does.
+    different N only compare in pools of one size.
 
     Raises ValueError: fewer pairs than one pool.
     """

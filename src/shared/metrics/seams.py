@@ -1,9 +1,8 @@
 """Are the seams between windows seen? Accelerations and jerks there against everywhere else.
 
-Three answers for each quantity. The ratio of its quantiles at seams and elsewhere, with a
-bootstrap interval over songs: 1 inside is what a smooth seam gives. The same ratio and the
-Kolmogorov–Smirnov distance against a null: the same marks turned round to random places of each
-song. And the extremes of what must not jump at all, phase and quaternion sign.
+The ratio of each quantity's quantiles at seams and elsewhere, with a bootstrap interval over songs:
+a smooth seam has 1 inside. The same and the Kolmogorov–Smirnov distance against a null: the marks
+turned round to random places of each song. And the extremes of what must not jump at all.
 
 Letters: T frames.
 """
