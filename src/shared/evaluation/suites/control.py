@@ -9,7 +9,7 @@ Letters: N motions of one cell.
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from itertools import chain, cycle, islice
+from itertools import chain, cycle, islice, product, repeat
 
 from pydantic import TypeAdapter
 
@@ -31,7 +31,7 @@ NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go r
 
 @dataclass
 class Cell:
-    """What was made for one task, language and kind of wording; `made[i]` has seed i."""
+    """What was made for one task, language and kind of wording."""
 
     task: ControlTask
     language: str
@@ -56,30 +56,27 @@ def prompts_of(
     return book.captions(labels, num=NUM_TEMPLATES, seed=seed).get(language, [])
 
 
-def _in_turn(choices: Sequence[Sequence[str]], num: int) -> list[str]:
-    """`num` prompts: the label sets in turn, and the prompts of each in turn."""
-    rounds = zip(*(cycle(prompts) for prompts in choices if prompts), strict=False)
-    return list(islice(chain.from_iterable(rounds), num))
-
-
 def plan_cells(
     book: CaptionBook,
     languages: Sequence[str],
     num_seeds: int,
     seed: int,
-    tasks: Sequence[ControlTask] = CONTROL_TASKS,
+    tasks: Sequence[ControlTask],
 ) -> list[Cell]:
     """Every cell that has prompts, not yet generated."""
+
+    def prompts(sets: Sequence[Labels], language: str, wording: str) -> list[str]:
+        """`num_seeds` of them, or none: the label sets in turn, and the prompts of each in turn."""
+        every = [prompts_of(book, labels, language, wording, seed) for labels in sets]
+        turns = zip(*(cycle(own) for own in every if own), strict=False)
+        return list(islice(chain.from_iterable(turns), num_seeds))
+
     cells = []
-    for language in languages:
-        for task in tasks:
-            for wording in WORDINGS:
-                choices = [prompts_of(book, s, language, wording, seed) for s in task.labels]
-                versus = prompts_of(book, task.versus or {}, language, wording, seed)
-                prompts = _in_turn(choices, num_seeds)
-                other = _in_turn([versus], num_seeds) if task.compare else []
-                if prompts and (other or not task.compare):
-                    cells.append(Cell(task, language, wording, prompts, other))
+    for language, task, wording in product(languages, tasks, WORDINGS):
+        asked = prompts(task.labels, language, wording)
+        other = prompts([task.versus], language, wording) if task.versus else []
+        if asked and (other or not task.versus):
+            cells.append(Cell(task, language, wording, asked, other))
     return cells
 
 
@@ -103,9 +100,8 @@ def rate(
     task: ControlTask, motions: Sequence[Measurements], others: Sequence[Measurements]
 ) -> Estimate:
     """Share of motions that do what the task asks, against `others` row by row if it compares."""
-    if task.compare is None:
-        return share_of([task.passes(motion) for motion in motions])
-    return share_of([task.passes(a, b) for a, b in zip(motions, others, strict=False)])
+    pairs = zip(motions, others if task.compare else repeat(None), strict=False)
+    return share_of([task.passes(*pair) for pair in pairs])
 
 
 def control_grid(
@@ -124,12 +120,11 @@ def control_grid(
     """Success rates: a row a task and their mean, a column a language and kind of wording.
 
     Args:
-        real: clips for the real row, None for none.
+        real: clips for the real column; None = none.
         num_seeds: motions a cell.
         untrained: asked the templates of the first language; None = its column stays empty.
-        actions: that the model knows: no task of another is asked, and of none no row is left;
-            empty = nobody knows, and all are.
-        once: `Parts.once`: what is finished is not made again.
+        actions: that the model knows, no other is asked for; empty = nobody knows.
+        once: `Parts.once`.
     """
     tasks = _of_known(actions)
     if left := [each.name for each in CONTROL_TASKS if each.name not in {t.name for t in tasks}]:
@@ -197,9 +192,10 @@ def _real_rate(task: ControlTask, real: Clips | None) -> Estimate:
         fits = [m for m, own in pairs if any(wanted.items() <= own.items() for wanted in labels)]
         return [measure(motion) for motion in fits]
 
-    motions, others = matching(task.labels), matching([task.versus]) if task.versus else []
+    motions = matching(task.labels)
     if task.versus is None:
         return rate(task, motions, [])
+    others = matching([task.versus])
     return rate(task, [a for a in motions for _ in others], others * len(motions))
 
 
