@@ -48,31 +48,22 @@ class MetricFamily(Generic[Judged]):
 
     To add one: describe it in tables.toml and name it among the families of a suite. Tables,
     intervals, comparison, the reports and their legend follow by themselves.
-
-    Attributes:
-        name: of the family's table.
-        columns: what `figures` may return, in the order shown.
-        definition: Markdown for the legend: what each figure is, its source, and what it cannot
-            tell.
-        figures: of a sample in one replication, given the sample (real, chance, frozen, untrained
-            or generated motions), the reference (the real motions; row `sample.source[i]` is the
-            one that motion i was asked to resemble, and what is fitted on them belongs in
-            `reference.memo`), and the seed of every random choice (batches, pairs). By column key
-            a float for the sample as a whole (its interval comes from replications), or an array
-            [N], one value a motion, NaN where the column does not apply (mean and interval come
-            from a bootstrap over motions; comparisons pair them by prompt); a column that cannot
-            be computed is left out. Or the figures of each motion, by column key, a mapping each.
-        distance: the figures are distances from the reference. The real row is then measured
-            between two disjoint halves of the real motions, since a sample is at 0 from itself.
-        least: motions of the sample and of the reference below which there are no figures.
     """
 
-    name: str
-    columns: tuple[Column, ...]
-    definition: str
+    name: str  # of the family's table
+    columns: tuple[Column, ...]  # what `figures` may return, in the order shown
+    definition: str  # Markdown: what each figure is, its source, and what it cannot tell
+    # Of a sample in one replication, given the reference (the real motions; `sample.source[i]` is
+    # the row that motion i was asked to resemble, and what is fitted on them belongs in
+    # `reference.memo`) and the seed of every random choice. By column key a float for the sample as
+    # a whole (its interval comes from replications), or an array [N], NaN where the column does not
+    # apply (its interval comes from a bootstrap over motions; comparisons pair them by prompt);
+    # what cannot be computed is left out. Or a mapping a motion, by column key.
     figures: Figures[Judged]
+    # they are distances from the reference: the real row is measured between two disjoint halves of
+    # the real motions, since a sample is at 0 from itself
     distance: bool = False
-    least: int = 0
+    least: int = 0  # motions of sample and reference below which there are no figures
 
     @classmethod
     def of(cls, name: str, figures: Figures[Judged], *, warning: str = "", **rest: Any) -> Self:
@@ -167,19 +158,20 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
     for name, make in suite.tables.items():
         part = parts.once(name, partial(_as_part, make))
         tables += [Grid.from_dict(grid) for grid in part["grids"]]
-    pictures: Part = {"pictures": []}
+    drawn: list[dict[str, Any]] = []
     if suite.pictures is not None:
-        draw, folder = suite.pictures, parts.folder
-        pictures = parts.once(
-            "pictures", lambda: {"pictures": draw(folder) if folder is not None else []}
-        )
+        drawn = parts.once("pictures", partial(_drawn, suite.pictures, parts.folder))["pictures"]
     facts = {} if suite.facts is None else parts.once("facts", suite.facts)
-    about, drawn = {**suite.about, **facts}, pictures["pictures"]
+    about = {**suite.about, **facts}
     return report_data(suite.branch, about, suite.settings, tables, samples, drawn)
 
 
 def _as_part(make: Callable[[], list[Grid]]) -> Part:
     return {"grids": [grid.as_dict() for grid in make()]}
+
+
+def _drawn(draw: Callable[[Path], list[dict[str, Any]]], folder: Path | None) -> Part:
+    return {"pictures": [] if folder is None else draw(folder)}
 
 
 def part_name(bench: str, row: str, replication: int) -> str:

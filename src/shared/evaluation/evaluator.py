@@ -179,10 +179,8 @@ class Evaluator(nn.Module):
 
     @torch.inference_mode()
     def embed_features(self, clips: Sequence[Tensor], *, batch_size: int = 64) -> Tensor:
-        """Raw motion features [T, K + 1, 6] of N clips to unit vectors [N, D] on the CPU.
-
-        Clips are sorted by length into batches; the result is in the order given.
-        """
+        """Raw motion features [T, K + 1, 6] of N clips, batched by length, to unit vectors [N, D]
+        on the CPU, in the order given."""
         self.eval()
         order = sorted(range(len(clips)), key=lambda row: len(clips[row]))
         result = torch.zeros(len(clips), self.config.embed_dim)
@@ -193,10 +191,8 @@ class Evaluator(nn.Module):
         return result
 
     def embed_windows(self, motion: Motion) -> np.ndarray:
-        """[W, D] of the windows of a motion, each as long as the clips that the judge learned from.
-
-        The last, shorter one is left out unless it is the only one.
-        """
+        """[W, D] of the windows of a motion, each as long as the clips that the judge learned from;
+        a shorter last one is left out unless it is the only one."""
         features = encode_features(motion)
         whole = max(1, len(features) // WINDOW)
         windows = [features[k * WINDOW : (k + 1) * WINDOW] for k in range(whole)]
@@ -278,13 +274,9 @@ def padded(parts: Sequence[Tensor]) -> tuple[Tensor, Tensor]:
 
 
 def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
-    """Raw motion features [T, K + 1, 6] of each clip to [T, F] of what the evaluator reads.
-
-    The kinematics of all clips run at once. Velocities are forward differences; the last frame
-    repeats (ruling 6).
-
-    Raises ValueError: the root track is missing, or a shape is another.
-    """
+    """Raw motion features [T, K + 1, 6] of each clip to [T, F] of what the evaluator reads; the
+    kinematics run at once. Velocities are forward differences; the last frame repeats (ruling 6).
+    Raises ValueError: the root track is missing, or a shape is another."""
     for clip in clips:
         if clip.ndim != 3 or clip.shape[1:] != (NUM_JOINTS + 1, 6):
             raise ValueError(
@@ -305,5 +297,5 @@ def joint_features(clips: Sequence[Tensor]) -> list[Tensor]:
             velocities[-1] = velocities[-2]
         root = clip[:, NUM_JOINTS]
         track = root[:, [FORWARD, LATERAL, YAW_RATE]]
-        found.append(torch.cat([root[:, HEIGHT : HEIGHT + 1], joints, velocities, track], dim=-1))
+        found.append(torch.cat([root[:, [HEIGHT]], joints, velocities, track], dim=-1))
     return found

@@ -142,12 +142,8 @@ def _kinetics(
 def _travel(sample: MotionSample, reference: MotionSample, seed: int) -> dict[str, np.ndarray]:
     """NaN where a motion has no reference."""
     own, real = sample.each("travel", travel), reference.each("travel", travel)
-    known = np.flatnonzero(sample.source >= 0)
-    errors = travel_error([own[i] for i in known], [real[sample.source[i]] for i in known])
-    found = {f"{name}_error": np.full(len(sample), np.nan) for name in errors}
-    for name, values in errors.items():
-        found[f"{name}_error"][known] = values
-    return found
+    theirs = [real[row] if row >= 0 else np.full(3, np.nan) for row in sample.source]
+    return {f"{name}_error": each for name, each in travel_error(own, theirs).items()}
 
 
 def _obeyed(sample: MotionSample, reference: MotionSample, seed: int) -> list[dict[str, float]]:

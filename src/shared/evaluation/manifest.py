@@ -1,9 +1,8 @@
 """What a report folder knows of itself, so that a second start takes it up where it stopped.
 
-manifest.json: hashes and settings of everything that decides the figures. Two reports may be
-compared, and a stopped one continued, if their manifests agree. parts/: what has been finished, a
-JSON file each, written whole. How long a part took is kept apart in timing.json, so that nothing
-else depends on the clock.
+manifest.json: hashes and settings of all that decides the figures; reports may be compared, and a
+stopped one continued, if theirs agree. parts/: what has been finished, a JSON file each, written
+whole. How long it took is kept apart in timing.json, so that nothing else depends on the clock.
 """
 
 import hashlib
@@ -132,10 +131,7 @@ def differences(a: Mapping[str, Any], b: Mapping[str, Any]) -> list[str]:
 
 
 class Parts:
-    """Finished parts by name.
-
-    `folder`: of the report; None = they are kept in memory alone.
-    """
+    """Finished parts by name, kept in the `folder` of the report; None = in memory alone."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder

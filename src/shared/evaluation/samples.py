@@ -109,10 +109,9 @@ class MotionSample:
     def rows(self, index: Sequence[int]) -> "MotionSample":
         """The pairs at these rows, in this order."""
         at = list(index)
+        arrays = self.text[at], self.motion[at], self.source[at]
         memos = [self.memos[row] for row in at]
-        clips = self.clips.rows(at)
-        text, motion, source = self.text[at], self.motion[at], self.source[at]
-        return MotionSample(clips, text, motion, source, memos, whole=self.whole or self)
+        return MotionSample(self.clips.rows(at), *arrays, memos, whole=self.whole or self)
 
     def reordered(self, order: Sequence[int]) -> "MotionSample":
         """Captions and labels stay, motions change places: what ignoring the prompt gives."""
@@ -222,12 +221,8 @@ class HeldOut:
 def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> HeldOut:
     """The test splits of a prepared folder, or fresh synthetic clips.
 
-    Fresh clips are made with a seed that no training uses, so that all of them are held back;
-    a label combination is unseen if it is not among `trained_groups`.
-
-    Args:
-        data: prepared folder, or "synthetic", of which `cache` keeps the clips.
-        trained_groups: label combinations that the models were trained on.
+    Fresh clips ("synthetic", kept in `cache`) are made with a seed that no training uses, so that
+    all are held back; what is not among the label combinations `trained_groups` is unseen.
 
     Raises UserError: no such folder, or it is damaged.
     """
@@ -264,11 +259,9 @@ def rows_of_each(names: Iterable[Name]) -> dict[Name, list[int]]:
 
 
 def spread_over_groups(records: Sequence[ClipRecord], num: int, seed: int) -> list[ClipRecord]:
-    """At most `num` different records, one of each label group in turn, in a random order.
-
-    A source with many clips of one action (Bandai: two in three raise or wave an arm) would
-    otherwise decide every figure.
-    """
+    """At most `num` different records, one of each label group in turn, in a random order: a source
+    with many clips of one action (Bandai: two in three raise or wave an arm) would else decide
+    every figure."""
     rng = np.random.default_rng(seed)
     mixed = [records[row] for row in rng.permutation(len(records))]
     groups = rows_of_each(record.group for record in mixed)
@@ -292,12 +285,9 @@ def real_clips(
     min_frames: int = 16,
     seed: int = 0,
 ) -> Clips:
-    """At most `num` of these clips that have a caption in the language, spread over groups.
-
-    Of longer clips the first `max_frames` count.
-
-    Raises UserError: there is no such clip.
-    """
+    """At most `num` of these clips that have a caption in the language, spread over groups; of
+    longer ones the first `max_frames`.
+    Raises UserError: there is no such clip."""
     long = (record for record in records if record.num_frames >= min_frames)
     usable = [record for record in long if data.captions(record).get(language)]
     if not usable:

@@ -21,8 +21,6 @@ from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")
 OTHERS = 8  # other songs that each motion is held against
-
-
 Danced = tuple[Dance[Any], np.ndarray]  # a motion on its music, and the motion's beats, seconds
 
 
@@ -51,14 +49,12 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         two rows' intervals do not overlap, and there are `FEW` songs or more; songs, motion_beats,
         music_beats, without_beats.
     """
-    scores: dict[str, list[rhythm.Rhythm]] = {name: [] for name in ("own song", *HELD_AGAINST)}
-    for index, each in enumerate(dances):
-        rng = np.random.default_rng([seed, 2, index])
-        for name, score in song_scores(each, dances, rng).items():
-            scores[name].append(score)
-    values: dict[str, dict[str, np.ndarray]] = {name: {} for name in scores}
-    for name, column in product(scores, rhythm.COLUMNS):
-        values[name][column] = np.array([getattr(score, column) for score in scores[name]])
+    draws = [np.random.default_rng([seed, 2, index]) for index in range(len(dances))]
+    songs = [song_scores(*each, dances, rng) for each, rng in zip(dances, draws, strict=True)]
+    values = {
+        name: {key: np.array([getattr(s[name], key) for s in songs]) for key in rhythm.COLUMNS}
+        for name in ("own song", *HELD_AGAINST)
+    }
     rows = {
         name: {column: bootstrap_mean(figures).as_dict() for column, figures in found.items()}
         for name, found in values.items()
@@ -79,10 +75,9 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
 
 
 def song_scores(
-    asked: Danced, dances: Sequence[Danced], rng: np.random.Generator
+    dance: Dance[Any], beats: np.ndarray, dances: Sequence[Danced], rng: np.random.Generator
 ) -> dict[str, rhythm.Rhythm]:
     """One motion against its own song and everything else."""
-    dance, beats = asked
     own, chance, off = rhythm.against_chance(beats, dance.beats, dance.seconds, rng)
     scores = {"own song": own, "chance": chance, "half a beat later": off}
     strangers = [other for other, _ in dances if other.song != dance.song]

@@ -1,10 +1,10 @@
 """Best of N: does what the judge chose look better to those the judge does not listen to?
 
-Every candidate is measured once; rows then differ only in which candidates they take. The best of
-n is the judge's choice among n candidates that follow each other, so of 32 there are 32 choices of
-one and four of eight. Each choice for all subjects (prompts or songs) is a replication: intervals
-of rows say what other noise would give for the same subjects. What the largest size gains over
-single candidates is resampled over subjects: it says what other subjects would give.
+Every candidate is measured once; rows differ in which candidates they take. The best of n is the
+judge's choice among n that follow each other: of 32 there are 32 choices of one and four of eight.
+Each choice for all subjects (prompts or songs) is a replication: intervals of rows say what other
+noise would give. What the largest size gains over single candidates is resampled over subjects: it
+says what other subjects would give.
 
 A figure is *outside* (nothing of it enters the judge), *akin* (another measure of something that
 the judge does look at) or the judge's own. Only outside figures count for the verdict.
@@ -119,17 +119,15 @@ def selection_report(pool: Pool, largest: int) -> Report:
         `difference`;
         outside_apart: keys of outside figures that are better with intervals apart.
     """
-    rows: dict[str, dict[str, Any]] = {}
-    for name, floor in pool.floors.items():
-        rows[name] = {
-            key: (bootstrap_mean(v) if isinstance(v, np.ndarray) else replicated([v])).as_dict()
-            for key, v in floor.items()
-        }
     taken = {f"best of {size}": choices(pool.score, size) for size in sizes(largest)}
     taken[f"worst of {largest}"] = choices(-pool.score, largest)
     found = {name: measured(pool, chosen) for name, chosen in taken.items()}
-    for name, (_, whole) in found.items():
-        rows[name] = {key: estimate.as_dict() for key, estimate in whole.items()}
+    estimates = {
+        name: {k: bootstrap_mean(v) if isinstance(v, np.ndarray) else replicated([v])
+               for k, v in floor.items()}
+        for name, floor in pool.floors.items()
+    } | {name: whole for name, (_, whole) in found.items()}  # fmt: skip
+    rows = {name: {k: e.as_dict() for k, e in each.items()} for name, each in estimates.items()}
     (one, _), (many, _) = found["best of 1"], found[f"best of {largest}"]
     gains: dict[str, dict[str, Any]] = {}
     for figure in pool.figures:
@@ -154,10 +152,7 @@ def selection_report(pool: Pool, largest: int) -> Report:
 def report_of(
     pool: Pool, largest: int, subjects: str, about: dict[str, Any], settings: dict[str, Any]
 ) -> Report:
-    """`selection_report` with what it was measured on, as plain data for JSON.
-
-    `subjects`: words for the titles.
-    """
+    """`selection_report` with what it was measured on, as plain data; `subjects` in the titles."""
     found = selection_report(pool, largest)
     apart = ", ".join(found["outside_apart"]) or "none"
     return report_data(
@@ -234,12 +229,8 @@ def prompt_pool(
     progress: Progress = lambda text: None,
     **sampling: Any,
 ) -> Pool:
-    """C candidates for each of P ≥ 32 captions at their clips' lengths, measured.
-
-    Args:
-        evaluator: trained apart from generator and judge.
-        sampling: steps, sampler, guidance_scale; left out = the model's own.
-    """
+    """C candidates for each of P ≥ 32 captions at their clips' lengths, measured; the evaluator is
+    trained apart from generator and judge. `sampling` as in `evaluate_prompts`."""
     made: list[list[Motion]] = []
     tables = []
     seconds = [frames / best_of.generator.card.fps for frames in clips.num_frames]
@@ -286,7 +277,7 @@ def _singles(sample: MotionSample, real: MotionSample) -> dict[str, np.ndarray]:
     for family in (OBEDIENCE, TRAVEL, PHYSICS):
         found |= family.compute(sample, real, seed=0)
     keys = "speed_error", "turn_error", "support_slide", "hand_jerk", "matching_distance"
-    names = {"obeys": "obeys_all", **dict(zip(keys, keys, strict=True))}
+    names = {"obeys": "obeys_all"} | {key: key for key in keys}
     return {name: np.asarray(found[key]) for name, key in names.items()}
 
 
@@ -322,11 +313,9 @@ def evaluate_prompts(
     """Best of N for the captions of held-back clips, by names; see `selection_report`.
 
     Args:
-        model: a shipped name or a folder.
-        data: prepared folder (its test splits), or "synthetic" (fresh clips).
+        model, evaluator: shipped names or folders.
+        data: prepared folder (its test splits), or "synthetic" (fresh clips, kept in `cache`).
         judge: folder of `train_clip`; None = the model's own where one is shipped.
-        evaluator: a shipped name or a folder.
-        cache: where synthetic clips are kept.
         sampling: steps, sampler, guidance_scale; left out = the model's own.
 
     Raises UserError: no such model, tower, evaluator or data, or too few clips.
@@ -366,10 +355,9 @@ def evaluate_prompts(
 # ---------------------------------------------------------------- songs
 
 KINDS = 5  # kinetic features of a pelvis, each of a unit of its own
-# The judge looks at the sanity suite, whose bands hold mean speeds, turning and accelerations, and
-# at how the motion's beats fall on those that the tracker heard: true beats and kinetic distance
-# are akin to that. Outside is the geometric distance (the share of frames in which a pelvis is
-# low, sinks, goes backward, turns left, ...).
+# The judge looks at the sanity suite, whose bands hold speeds, turning and accelerations, and at
+# beats that the tracker heard: true beats and kinetic distance are akin to that. Outside is the
+# geometric distance (the share of frames in which a pelvis is low, goes backward, ...).
 HITS = Figure("hits", "hits F, true beats", 3, True, "akin")
 DISTANCES = (
     Figure("fid_g", "FID_g, pelvis", 3, False, "outside"),
@@ -398,13 +386,8 @@ def song_pool(
     settings: SongSampling,
     progress: Progress = lambda text: None,
 ) -> Pool:
-    """C candidates for each of P songs, measured.
-
-    Args:
-        judge: hears the beats that the tracker hears.
-        real: motions that distances are taken from; none = no distances.
-        settings: C, seed, sampler.
-    """
+    """C candidates for each of P songs, measured; `settings`: C, seed, sampler. The judge hears the
+    beats that the tracker hears. Distances are taken from the `real` motions, where there are."""
     made: list[list[MotionTrajectory]] = []
     tables = []
     for number, piece in enumerate(pieces, start=1):

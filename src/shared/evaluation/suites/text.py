@@ -212,12 +212,9 @@ class Split:
         return self.context.with_motions(self.reference, still)
 
     def generated(self, sampler: Sampler, replication: int) -> MotionSample:
-        """Motions for the split's captions at the clips' lengths.
-
-        The prompts are a random sample of the clips: the first ones hold more of the rare groups
-        than the reference does, which alone is a distance (0.010 of 0.108 once). With fewer clips
-        than samples the captions come round again, with other noise.
-        """
+        """Motions for the captions of a random sample of the clips, at their lengths; where clips
+        are fewer than samples they come round again, with other noise. (The first clips hold more
+        of the rare groups, which alone is a distance: 0.010 of 0.108 once.)"""
         order = np.random.default_rng(self.seed).permutation(len(self.reference)).tolist()
         wanted = range(self.context.settings.num_samples)
         asked = self.reference.rows([order[row % len(order)] for row in wanted])
@@ -260,8 +257,7 @@ def evaluate_samplers(
     about: Mapping[str, Any] | None = None,
     sources: Callable[[], Sources] | None = None,
 ) -> Report:
-    """The whole report as plain data; `about` is what to repeat of the model, `sources` are for the
-    manifest of the folder."""
+    """The whole report; `about` is what to repeat of the model, `sources` are for the manifest."""
     held_out = context.held_out
     facts = {
         **(about or {}),
@@ -295,10 +291,8 @@ def evaluate_text(
     """Everything `evaluate` does for a text model, by names.
 
     Args:
-        model: a shipped name or a folder.
-        data: prepared folder (its test splits), or "synthetic" (fresh clips).
-        evaluator: a shipped name or a folder.
-        cache: where synthetic clips are kept.
+        model, evaluator: shipped names or folders.
+        data: prepared folder (its test splits), or "synthetic" (fresh clips, kept in `cache`).
         device: of the generator.
         folder: of the report: finished parts are kept there and not measured again.
         sampling: steps, sampler, guidance_scale, foot_lock; left out = the model's own.
