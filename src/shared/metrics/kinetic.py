@@ -6,10 +6,10 @@ Lengths are in those of the skeleton: hl the upper arm, sw and hw the width of s
 Normalised by the real motions as in Bailando (Siyao et al. 2022). 66 kinetic and 32 geometric
 features of a body; 5 and 12 of a 25-d trajectory, a reduced variant of our own.
 
-Not the published code, whose figures these must never stand beside. Mended here: it divides only
-one of two positions by the frame time in the acceleration, so that a pose far from the origin
-"accelerates"; it takes 1/60 or 1/120 s a frame whatever the frame rate; two velocity features look
-at the chest instead of the wrist; and the plane features of left and right look opposite ways.
+Never beside figures of the published code. Mended here: it divides only one of two positions by the
+frame time in the acceleration, so that a pose far from the origin "accelerates"; takes 1/60 or
+1/120 s a frame whatever the frame rate; two velocity features look at the chest instead of the
+wrist; the plane features of left and right look opposite ways.
 
 Letters: T frames, K joints, F features, W windows, N and M motions, A principal axes.
 """
@@ -64,11 +64,10 @@ def _checked(points: Array) -> Array:
 
 
 def kinetic_features(points: Array, fps: float) -> Array:
-    """Mean squared horizontal and vertical speed and mean acceleration of each joint.
+    """Mean squared horizontal and vertical speed and mean acceleration of each joint (`KINDS`) of
+    points [T, K, 3] in metres in the world, y up: [K, 3] in m²/s², m²/s², m/s².
 
-    Of points [T, K, 3] in metres in the world, y up: [K, 3] in m²/s², m²/s², m/s² (`KINDS`).
-    Velocities and accelerations are means over five frames. Turning about y, moving anywhere and
-    playing backwards change nothing.
+    Means over five frames. Turning about y, moving anywhere, playing backwards change nothing.
 
     Raises ValueError: fewer than 3 frames, NaN or infinity.
     """
@@ -248,10 +247,8 @@ FLOOR = 0.05  # least scale of a feature, in those of its kind: what never varie
 
 @dataclass(frozen=True, eq=False)
 class FeatureSpace:
-    """Features in units of how the real ones vary: `mean` [F], `scale` [F], all above 0.
-
-    The published code divides by the plain deviation + 1e-10, so that a relation that no real
-    motion shows weighs ten thousand million times as much as the others.
+    """Features in units of how the real ones vary: `mean` [F], `scale` [F], all above 0. (By the
+    published deviation + 1e-10 what no real motion shows weighs ten thousand million times more.)
     """
 
     mean: np.ndarray

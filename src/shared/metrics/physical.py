@@ -38,10 +38,9 @@ def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
 
 
 def contact_slide(positions: np.ndarray, fps: float) -> float:
-    """Mean horizontal speed in cm/s of the balls of the feet over frames in contact.
+    """Mean horizontal speed in cm/s of the balls of the feet over frames in contact; NaN without.
 
-    Contacts come from `detect_contacts`, which itself asks for a slow foot, so a foot that glides
-    fast is not counted here: read it together with `support_slide`; NaN without contact.
+    `detect_contacts` itself asks for a slow foot: read it together with `support_slide`.
     """
     contact = detect_contacts(positions, fps)[:-1] > 0.5  # [T - 1, 2]
     speed = ground_speed(positions[:, BALLS], fps)
@@ -84,11 +83,8 @@ SUPPORT_HEIGHT = 0.06  # metres above the rest height: higher than this, no foot
 
 
 def support_slide(positions: np.ndarray, fps: float) -> float:
-    """Mean horizontal speed in cm/s of the lower foot, over frames where it is near the floor.
-
-    Some foot carries the body unless it is in the air, so this needs no guess about contacts and
-    gliding cannot escape it.
-    """
+    """Mean horizontal speed in cm/s of the lower foot, over frames where it is near the floor: some
+    foot carries the body unless it is in the air, so that gliding cannot escape."""
     return 100 * _mean(support_speed(positions, fps))
 
 
@@ -151,11 +147,8 @@ def _mean(values: np.ndarray) -> float:
 
 
 def support_speed(positions: np.ndarray, fps: float) -> np.ndarray:
-    """Horizontal m/s of the lower ball of a foot in each frame where it is near the floor.
-
-    Of positions [T, 22, 3]; at most T-1 values, none where nothing is near. No condition on the
-    speed, so that a gliding body cannot escape by gliding fast.
-    """
+    """Horizontal m/s of the lower ball of a foot in each frame where it is near the floor, however
+    fast: at most T-1 values of positions [T, 22, 3]."""
     balls = positions[:, BALLS]  # T 2 3
     frames, lower = np.arange(len(balls) - 1), balls[:-1, :, 1].argmin(1)
     near = balls[frames, lower, 1] < REST_FOOT_HEIGHT + SUPPORT_HEIGHT
@@ -163,11 +156,8 @@ def support_speed(positions: np.ndarray, fps: float) -> np.ndarray:
 
 
 def slide_per_metre(positions: np.ndarray, fps: float) -> float:
-    """Centimetres that the carrying foot slides for a metre of the pelvis's way.
-
-    100 for a body that glides, about 5 for mocap. Standing still is not good walking: NaN below
-    half a metre.
-    """
+    """Centimetres that the carrying foot slides for a metre of the pelvis's way: 100 of a body that
+    glides, about 5 of mocap, NaN below half a metre (standing still is not good walking)."""
     way = float(ground_speed(positions[:, 0], fps).sum() / fps)
     slid = float(support_speed(positions, fps).sum() / fps)
     return 100 * slid / way if way >= MIN_PATH else float("nan")
@@ -197,11 +187,8 @@ def unsupported(positions: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarr
 
 
 def jerk_per_speed(positions: np.ndarray, fps: float) -> float:
-    """Mean jerk over mean speed of the joints in 1/s², of positions [T, K, 3].
-
-    Jerk alone is best when nothing moves. Playing a motion faster by f multiplies this by f². NaN
-    for a frozen pose and below 4 frames.
-    """
+    """Mean jerk over mean speed of the joints in 1/s², of positions [T, K, 3]; NaN for a frozen
+    pose (whose jerk is best) and below 4 frames. Playing faster by f multiplies it by f²."""
     speed = float(np.linalg.norm(np.diff(positions, axis=0), axis=-1).mean() * fps)
     return mean_jerk(positions, fps) / speed if speed >= MIN_SPEED else float("nan")
 

@@ -51,10 +51,8 @@ def smoothed_speed(points: np.ndarray, fps: float) -> np.ndarray:
 
 
 def motion_beats(points: np.ndarray, fps: float = 30.0) -> MotionBeats:
-    """Beats of a pelvis path [T,3], or of a whole body's joints [T,J,3], in metres.
-
-    The minimum is placed between frames by a parabola through its three samples.
-    """
+    """Beats of a pelvis path [T,3], or of a whole body's joints [T,J,3], in metres; placed between
+    frames by a parabola through the minimum's three samples."""
     from scipy.signal import find_peaks  # takes a second, and a prompt has no beats
 
     speed = smoothed_speed(points, fps)
@@ -80,10 +78,8 @@ def distances(beats: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 def beat_alignment(beats: np.ndarray, others: np.ndarray) -> float:
-    """Mean over `beats` of exp(-d²/2σ²), d the distance to the nearest of `others`.
-
-    NaN without `beats`, 0 without `others`.
-    """
+    """Mean over `beats` of exp(-d²/2σ²), d the distance to the nearest of `others`; NaN without
+    `beats`, 0 without `others`."""
     if not len(beats):
         return float("nan")
     if not len(others):
@@ -100,10 +96,8 @@ class Alignment:
 
 
 def alignment(motion: np.ndarray, music: np.ndarray, seconds: float) -> Alignment:
-    """How the motion's beats and the music's fall on each other within [0, seconds].
-
-    Beats beyond the ends count as neighbours, never as beats of their own.
-    """
+    """How the motion's beats and the music's fall on each other within [0, seconds]; those beyond
+    count as neighbours, never as beats of their own."""
     return Alignment(
         beat_alignment(_inside(motion, seconds), music),
         beat_alignment(_inside(music, seconds), motion),
@@ -118,10 +112,8 @@ def _inside(beats: np.ndarray, seconds: float) -> np.ndarray:
 def turned_round(
     motion: np.ndarray, seconds: float, rng: np.random.Generator, n: int
 ) -> Iterator[np.ndarray]:
-    """The motion's beats moved by a random time, `n` times: chance.
-
-    Turned round within the song, so that number and spacing of the beats stay.
-    """
+    """Chance: the motion's beats moved by a random time, `n` times, round within the song, so that
+    their number and spacing stay."""
     for shift in (np.arange(n) + rng.random(n)) * (seconds / n):
         yield np.sort((motion + shift) % seconds)
 
@@ -293,10 +285,8 @@ def half_beat_later(beats: np.ndarray) -> np.ndarray:
 def against_chance(
     motion: np.ndarray, music: np.ndarray, seconds: float, rng: np.random.Generator
 ) -> tuple[Rhythm, Rhythm, Rhythm]:
-    """A motion's beats on the music's, by chance, and on the off-beats; see `rhythm`.
-
-    Chance is the mean over `OFFSETS` random times that the motion is turned round by.
-    """
+    """A motion's beats on the music's, by chance (the mean over `OFFSETS` random times that it is
+    turned round by), and on the off-beats; see `rhythm`."""
     inside = _inside(motion, seconds)
     turned = [rhythm(each, music, seconds) for each in turned_round(inside, seconds, rng, OFFSETS)]
     own, off = rhythm(motion, music, seconds), rhythm(motion, half_beat_later(music), seconds)

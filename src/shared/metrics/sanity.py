@@ -70,10 +70,8 @@ def incoherence(trajectory: MotionTrajectory, of: slice, claimed: slice) -> floa
 
 
 def quaternion_continuity(trajectory: MotionTrajectory) -> float:
-    """The smallest signed dot product of neighbouring orientations (rulings 18, 23).
-
-    0.95 is a turn of 36° from one frame to the next, or a sign that was not carried on is -1.
-    """
+    """The smallest signed dot product of neighbouring orientations (rulings 18, 23): 0.95 of a turn
+    of 36° from one frame to the next, -1 of a sign that was not carried on."""
     q = _columns(trajectory, QUATERNION)
     q = q / np.maximum(np.linalg.norm(q, axis=1, keepdims=True), 1e-12)
     dots = (q[1:] * q[:-1]).sum(1)
@@ -81,10 +79,8 @@ def quaternion_continuity(trajectory: MotionTrajectory) -> float:
 
 
 def phase_step(trajectory: MotionTrajectory) -> float:
-    """The smallest step of the phase, bars a frame; below 0 it runs backwards (ruling 23).
-
-    Steps are taken the shorter way round the bar line, so that legal wraps are steps forward.
-    """
+    """The smallest step of the phase, bars a frame, the shorter way round the bar line; below 0 it
+    runs backwards (ruling 23)."""
     steps = np.diff(trajectory.data[:, PHASE].astype(np.float64))
     steps -= np.round(steps)
     return float(steps.min()) if steps.size else 0.0
@@ -122,11 +118,8 @@ def turning(trajectory: MotionTrajectory) -> float:
 
 
 def roughness(trajectory: MotionTrajectory) -> float:
-    """Mean acceleration by mean speed, 1/s: how fast velocities change.
-
-    Does not depend on the size of the motion. At 30 fps white noise has √3·30 = 52, a random walk
-    √2·30 = 42, a person at most 20. 0 where nothing moves.
-    """
+    """Mean acceleration by mean speed, 1/s, whatever the size of the motion; 0 where nothing moves.
+    At 30 fps white noise has √3·30 = 52, a random walk √2·30 = 42, a person at most 20."""
     speed = mean_rate(trajectory, 1)
     return mean_rate(trajectory, 2) / speed if speed else 0.0
 
@@ -162,11 +155,8 @@ class Band:
 
     @property
     def limits(self) -> tuple[float, float]:
-        """The band with `SLACK` at both ends, which nearly all real motion keeps to.
-
-        One real motion in ten lies outside each band itself, so a verdict on one motion cannot
-        ask for that.
-        """
+        """The band with `SLACK` at both ends, which nearly all real motion keeps to; of the band
+        itself one real motion in ten is outside."""
         return self.low / SLACK, self.high * SLACK
 
     def tolerates(self, value: float) -> bool:
@@ -287,14 +277,9 @@ class SanityChecker:
         self.bands = bands
 
     def check_all(self, trajectory: MotionTrajectory) -> tuple[bool, dict[str, CheckResult]]:
-        """Run everything; a value that is not finite fails.
-
-        `trajectory`: as the model gave it, not clamped, at least one frame.
-
-        Returns:
-            Whether all passed, and the results by name: the seven checks, `liveliness`,
-            `roughness` and, with bands, `band_<measure>`.
-        """
+        """Whether a trajectory of at least one frame, as the model gave it, not clamped, passes
+        everything, and the results by name: the seven checks, `liveliness`, `roughness` and, with
+        bands, `band_<measure>`. A value that is not finite fails."""
         if not trajectory.num_frames:
             raise ValueError("a trajectory without frames cannot be checked")
         with np.errstate(invalid="ignore", over="ignore"):  # NaN and infinity fail below
@@ -379,10 +364,8 @@ def mean_margin(results: Iterable[CheckResult]) -> float:
 
 
 def share(value: float, limit: float, edge: float) -> float:
-    """1 at the edge of what real motion has and on its far side, 0 at the limit and beyond.
-
-    Between them it falls with the logarithm. Limit and edge are above 0; any value will do.
-    """
+    """1 at the edge of what real motion has and on its far side, 0 at the limit and beyond, falling
+    with the logarithm between them. Limit and edge are above 0; any value will do."""
     if (value - edge) * (limit - edge) <= 0:
         return 1.0
     if (value - limit) * (limit - edge) >= 0:
