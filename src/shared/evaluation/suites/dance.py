@@ -162,12 +162,9 @@ class DanceContext:
         """A dance for each song by one of the performers in a replication."""
 
         def make() -> Bodies:
-            performer, prompts = self.performer(who), cycle(self.settings.prompts)
-            rows = zip(range(len(self.pieces)), prompts, strict=False)
-            pinned = who == "pinned"
-            return DanceSample.of(
-                [self.perform(performer, n, replication, p, pinned=pinned) for n, p in rows]
-            )
+            dance = partial(self.perform, self.performer(who), pinned=who == "pinned")
+            prompts = zip(range(len(self.pieces)), cycle(self.settings.prompts), strict=False)
+            return DanceSample.of([dance(n, replication, prompt) for n, prompt in prompts])
 
         return self.memo.once(f"danced {who} {replication}", make)
 
@@ -226,11 +223,9 @@ class DanceContext:
 
     def path_alone(self, replication: int) -> Bodies:
         """A statue carried along each path."""
-        paths = [self.path(number, replication) for number in range(len(self.pieces))]
-        rows = zip(self.pieces, paths, strict=True)
-        return DanceSample.of(
-            [Dance(p.name, to_motion(path), p.beats, path=path) for p, path in rows]
-        )
+        rows = [(piece, self.path(n, replication)) for n, piece in enumerate(self.pieces)]
+        statues = [Dance(p.name, to_motion(path), p.beats, path=path) for p, path in rows]
+        return DanceSample.of(statues)
 
     def bench(self) -> Bench[Bodies]:
         """The songs, danced by the model and its floors, and by real dancers where known."""
@@ -350,8 +345,7 @@ def write_body(sample: Bodies, row: int, path: Path) -> dict[str, Any]:
 
 
 # ---------------------------------------------------------------- seams of the body's windows
-# Accelerations and jerks there, elsewhere and in mocap; beside them what a seam looks like that is
-# seen: a dance of which every window is another dancer's (a hard cut).
+# There, elsewhere and in mocap, and where they are seen: every window another dancer's (hard cut).
 
 SEAM_TOP = 99  # percentile of real motion that nothing at a seam is to pass
 
@@ -455,7 +449,7 @@ def evaluate_performer(
 
     Args:
         edits: of editing; None = not measured.
-        about: what to repeat in the report; `model` and `audio_model` are names or folders.
+        about: what to repeat; `model`, `audio_model` and `other` are names or folders.
         folder: of the report: finished parts are kept there and not measured again.
 
     Raises UserError: the data or a song cannot be used, or the folder holds another report.

@@ -1,9 +1,9 @@
 """The memory suite: does it help? With, without and with randomly retrieved memory (RAG++).
 
 Every arm is measured on the same phrases and songs, which no training saw, with the same noise:
-how well real motion is denoised, what is made of held-out songs. What an arm gains over "without"
-is resampled over songs, pair by pair. Sizes of the memory and numbers of hits are told apart by the
-denoising error alone, the finest and cheapest of the figures.
+how well real motion is denoised, what is made of held-out songs. Gains over "without" are resampled
+over songs, pair by pair. Sizes of the memory and numbers of hits are told apart by the denoising
+error alone, the finest and cheapest of the figures.
 
 Letters: N phrases or songs, S songs, B of a batch or questions, D width of the space, T frames.
 """
@@ -29,7 +29,7 @@ from ...model.noise import standard_normal
 from ...motion.trajectory import MotionTrajectory, place_window
 from ...pipelines.song_memory import as_condition, bars_of_sound, bars_of_window
 from ...pipelines.song_sampler import SPARE, SongSampler, SongSampling
-from ..engine import Progress
+from ..engine import Progress, Value
 from ..families import BEAT_ALIGNMENT, TRAJECTORY_SANITY
 from ..samples import DanceSample, rows_of_each
 from ..stats import MIN_PAIRS, bootstrap_mean, paired_bootstrap
@@ -77,11 +77,8 @@ class Asker:
     ) -> MemoryCondition | None:
         """What an arm is told of B windows; None for one that does not ask.
 
-        Args:
-            query: [B,D].
-            bars: unwrapped [B,T]; None = unknown.
-            songs: [B], never found.
-            draw: another number, other stray questions.
+        Of keys [B,D], unwrapped bars [B,T] (None = unknown), and songs [B] that are never found;
+        another `draw`, other stray questions.
         """
         if not arm.asks:
             return None
@@ -163,11 +160,9 @@ def held_back(
 
 
 def denoising(setting: Setting, items: Sequence[PhraseItem], draws: int) -> Figures:
-    """Mean squared error of the predicted clean window, in z-scores, at three levels of noise.
-
-    Every arm sees the same noise. The finest of the three tables: it judges the network where it
-    knows what is right, not one of the many dances that fit a song.
-    """
+    """Mean squared error of the predicted clean window, in z-scores, at three levels of noise, the
+    same for every arm. The finest table: it judges the network where it knows what is right, not
+    one of the many dances that fit a song."""
     clusters = [song_of(item.record) for item in items]
 
     @torch.no_grad()
@@ -212,10 +207,8 @@ def _denoising_error(
 
 
 def curves(setting: Setting, items: Sequence[PhraseItem]) -> Figures:
-    """How far the made motion's prior curves are from those of the motion that was danced.
-
-    One sample a phrase, as many frames as one window makes. Chance is real motion of another song.
-    """
+    """How far the made motion's prior curves are from those of the motion that was danced: a sample
+    a phrase, as many frames as one window makes. Chance is real motion of another song."""
     frames = setting.model.config.window - SPARE
     clusters = [song_of(item.record) for item in items]
     starts = [float(bars_of_sound(item.audio[None])[0][0]) for item in items]
@@ -255,11 +248,10 @@ def songs(setting: Setting, pieces: Sequence[Piece]) -> Figures:
     def measure(arm: Arm) -> Values:
         made = [dance(setting, arm, p.condition, p.phase, p.name, n) for n, p in enumerate(pieces)]
         sample = DanceSample.of(list(map(dance_of, pieces, made)))
-        found: Values = {}
+        found: dict[str, Value] = {}
         for family in SONG_FAMILIES:
-            computed = family.compute(sample, sample, seed=setting.sampled.seed)
-            found |= {key: np.asarray(value) for key, value in computed.items()}
-        return {column.key: found[column.key] for column in SONGS}
+            found |= family.compute(sample, sample, seed=setting.sampled.seed)
+        return {column.key: np.asarray(found[column.key]) for column in SONGS}
 
     return Figures("motions for held-out songs", SONGS, [p.name for p in pieces], measure)
 
@@ -317,9 +309,8 @@ def evaluate_memory(
 
     Args:
         model: of train_memory.
-        index, space: the memory and the space of its keys.
+        index, space: the memory and the space of its keys; `config` is how it is asked.
         data: folder or bucket of pairs with the splits to measure on.
-        config: how the memory is asked.
         sampling: what `SongSampling` takes, the seed aside.
 
     Raises UserError: the data cannot be used.

@@ -38,8 +38,6 @@ REAL = "captured, held out"  # name of the row
 LOOKED_UP = "captured, looked up in training"
 DRAWS = 20  # of the clips that a distance is held against
 LENGTH_DRAWS = 4  # of the lengths at which its motions are made
-
-
 Labels = dict[str, str]
 Does = Callable[[Request, Motion], bool]
 
@@ -121,8 +119,7 @@ class Requests(Yardstick):
         texts, labels = [r.text for r in told], [r.labels for r in told]
         found, seed = list[Asked](), self.settings.seed
         for draw in range(LENGTH_DRAWS if told else 0):
-            seconds = self.lengths(labels, draw)
-            made = by.generate(texts, seconds=seconds, seed=seed + draw)
+            made = by.generate(texts, seconds=self.lengths(labels, draw), seed=seed + draw)
             found.append(Asked(told, Seen.of(made)))
         return found
 
@@ -132,11 +129,8 @@ class Requests(Yardstick):
         sets: Sequence[Seen],
         records: Sequence[ClipRecord] = (),
     ) -> dict[str, Cell]:
-        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each.
-
-        Averages over draws, which take turns with the sets of motions; a clip is not held against
-        one of its own take.
-        """
+        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each,
+        of another take; averages over draws, which take turns with the sets of motions."""
         own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
         pools = [pair for w, rows in zip(labels, own, strict=True)
                  if all(pair := (self.references(w), rows))]  # fmt: skip

@@ -69,7 +69,7 @@ def evaluate_sanity(
 
     Args:
         generator: trained; its own bands count where there is no data.
-        data: folder or bucket of pairs: its test split's sound is what is danced to, its training
+        data: folder or bucket of pairs: the sound of its test split is danced to, its training
             split gives the bands, at the same number of frames. None = held-out synthetic songs.
         about: what to repeat in the report.
 

@@ -86,10 +86,8 @@ def held_out_specs(number: int, seconds: float, seed: int) -> list[SongSpec]:
 def held_out_songs(
     number: int, seconds: float, seed: int, *, tell_meter: bool = True
 ) -> Iterator[Piece]:
-    """Freshly rendered songs with tempi of their own.
-
-    `tell_meter`: the beat tracker is told the beats a bar, as with `--meter`; else it chooses.
-    """
+    """Freshly rendered songs with tempi of their own; `tell_meter`: the beat tracker is told the
+    beats a bar, as with `--meter`; else it chooses."""
     for index, spec in enumerate(held_out_specs(number, seconds, seed)):
         made = render_song(spec)
         sound = sound_from_samples(made.samples, made.sample_rate)
@@ -163,12 +161,8 @@ def items(dataset: MotionPhraseDataset, draw: int = 0) -> Iterator[PhraseItem]:
 def phrases(
     dataset: MotionPhraseDataset, number: int, *, whole: bool = False, draw: int = 0
 ) -> list[RealPhrase]:
-    """Up to `number` windows, phrases in the order that the dataset's seed gives.
-
-    Args:
-        whole: leave out phrases that are shorter than the window.
-        draw: which window of each phrase.
-    """
+    """Up to `number` windows, phrases in the order that the dataset's seed gives; `whole`: without
+    shorter ones; `draw`: which window of each phrase."""
     found: list[RealPhrase] = []
     usable = (item for item in items(dataset, draw) if not whole or bool(item.mask.all()))
     for item in islice(usable, number):
@@ -213,12 +207,9 @@ MIN_BEATS = 4  # of a real dance that is held against its music
 
 
 def captured_dances(folder: Path, frames: int) -> Iterator[Dance[Motion]]:
-    """The motion files of a folder in pieces of so many frames, nobody knows to which music.
-
-    What is left at the end is a piece if it is half as long, or all there is.
-
-    Raises UserError: there is none, or one cannot be read.
-    """
+    """The motion files of a folder in pieces of so many frames, nobody knows to which music; what
+    is left at the end is a piece if it is half as long, or all there is.
+    Raises UserError: there is none, or one cannot be read."""
     files = sorted(each for each in folder.iterdir() if each.suffix.lower() in FOLDER_ENDINGS)
     if not files:
         raise UserError(f"{folder} holds no motion files; name a folder of captured dances")

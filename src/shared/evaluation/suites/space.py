@@ -1,9 +1,8 @@
 """The suite of a shared space: retrieval on held-out songs, and what neighbours have in common.
 
 Every table has a row of the space, one that knows the tempo alone, one of an untrained tower, and
-one by chance, under the same batches, which hold each phrase once.
-
-A window is a few bars of a phrase: sound, and the body that moves to it.
+one by chance, under the same batches, which hold each phrase once. A window is a few bars of a
+phrase: sound, and the body that moves to it.
 
 Letters: N or B windows, P phrases, M windows of a batch, Q queries, C = 167 rows of sound,
 T frames, D embed dim.
@@ -33,7 +32,6 @@ from ..tables import Grid, GridRow, Report, report_data
 from .songs import song_of
 
 Embed = Callable[[Tensor, Tensor], Tensor]
-
 EMBEDDED = 64  # windows at a time
 
 
@@ -70,12 +68,10 @@ class Windows:
         max_frames: int,
         rates: Callable[[int], Sequence[float]] = lambda number: (1.0,),
     ) -> "Windows":
-        """Cut every good phrase at its bars.
+        """Cut every good phrase of a data set with bodies at its bars.
 
         Args:
-            dataset: with bodies.
-            bars: length of a window.
-            step: bars from one window to the next; None = `bars`.
+            bars, step: length of a window, and from one to the next; None = `bars`.
             min_frames, max_frames: of a window; longer ones lose their end.
             rates: how fast the phrase of that number is shown; each rate is a phrase of its own.
         """
@@ -131,11 +127,8 @@ class Windows:
 def stretched(
     audio: np.ndarray, phase: np.ndarray, body: np.ndarray, rate: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Sound [167,T], unwrapped bars [T] and raw features [T,23,6] `rate` times as fast.
-
-    By linear interpolation: the same three of T' frames; velocities and turning are `rate` times
-    as large.
-    """
+    """Sound [167,T], unwrapped bars [T] and raw features [T,23,6] `rate` times as fast: the same
+    of T' frames by linear interpolation, velocities and turning `rate` times as large."""
     if rate == 1:
         return audio, phase, body
     at = np.arange(0, len(phase) - 1, rate)
@@ -168,13 +161,8 @@ RESAMPLES = 500
 
 
 def ranks(query: np.ndarray, items: np.ndarray, kin: np.ndarray) -> Ranks:
-    """Rank of item i for query i, by cosine.
-
-    Args:
-        query, items: [M, D] unit-norm; row i belongs together.
-        kin: [M, M] bool, items that are neither right nor wrong for a query (same song, say) and
-            are taken out of its list; what it says of the diagonal does not matter.
-    """
+    """Rank of item i for query i, by cosine of unit vectors [M, D]; `kin` [M, M] bool: items that
+    are neither right nor wrong for a query (same song, say), whatever it says of the diagonal."""
     own = np.eye(len(kin), dtype=bool)
     similarity = query.astype(np.float64) @ items.astype(np.float64).T  # M M
     return best_ranks(np.where(kin & ~own, np.inf, -similarity), own)
@@ -187,11 +175,8 @@ def by_song(
     *,
     seed: int = 0,
 ) -> Estimate:
-    """A figure of queries with a bootstrap interval over songs.
-
-    Queries [Q] of one song are not independent, so whole songs are drawn again (Field and Welsh
-    2007, cluster bootstrap). `count` is the number of songs.
-    """
+    """A figure of queries [Q] with a bootstrap interval over songs (`count`): those of one are not
+    independent, so whole songs are drawn again (Field and Welsh 2007, cluster bootstrap)."""
     names, owner = np.unique(np.asarray(songs), return_inverse=True)
     groups = [values[owner == number] for number in range(len(names))]
     rng = np.random.default_rng(seed)
@@ -230,16 +215,13 @@ class Bench:
     def draw(
         cls, windows: Windows, *, batch: int = BATCH, replications: int = 20, seed: int = 0
     ) -> "Bench":
-        """Replications of: all phrases in any order, full batches of them, a window of each.
-
-        With fewer phrases than a batch there is one batch of all.
-        """
+        """Replications of: all phrases in any order, full batches of them (one of all where they
+        are fewer), a window of each."""
         records, rng = windows.records, np.random.default_rng(seed)
         drawn = []
         for _ in range(replications):
             for phrases in batches(len(records), min(batch, len(records)), rng):
-                shown = [rng.choice(windows.of_phrase[phrase]) for phrase in phrases]
-                drawn.append(np.array(shown))
+                drawn.append(np.array([rng.choice(windows.of_phrase[p]) for p in phrases]))
         phrase = np.array([window.phrase for window in windows.items])
         songs = [song_of(records[p]) for p in phrase[np.concatenate(drawn)]]
         tags = np.array([record.tag for record in records])
@@ -323,8 +305,7 @@ def evaluate_space(
 
     Args:
         space: on the CPU.
-        data: folder of `prepare-audio`, with bodies.
-        split: whose songs and clips no training saw: test, or val.
+        data: folder of `prepare-audio`, with bodies; no training saw its `split`, test or val.
         texts: measure text as well, if every phrase has a caption.
 
     Raises UserError: no such phrases, no bodies, or a text tower of another space.
