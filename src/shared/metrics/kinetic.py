@@ -205,11 +205,9 @@ def _turning(trajectory: MotionTrajectory) -> Array:
 
 
 def root_kinetic_features(trajectory: MotionTrajectory) -> Array:
-    """`ROOT_KINDS` [5] of a trajectory: those of one joint, and mean squared turning and tilting.
-
-    In m²/s², m²/s², m/s², rad²/s², rad²/s². Position and quaternion count, not the columns that
-    derive from them. Raises ValueError as `kinetic_features` does.
-    """
+    """`ROOT_KINDS` [5] of a trajectory's position and quaternion: those of one joint, and mean
+    squared turning and tilting, in m²/s², m²/s², m/s², rad²/s², rad²/s².
+    Raises ValueError as `kinetic_features` does."""
     turning = windowed_mean(_turning(trajectory)) ** 2
     joint = kinetic_features(trajectory.position[:, None], trajectory.fps)[0]
     return np.append(joint, (turning[:, 1].mean(), turning[:, [0, 2]].sum(1).mean()))
@@ -291,10 +289,8 @@ def body_features(motion: Motion) -> Features:
 
 
 def root_features(trajectory: MotionTrajectory) -> list[Features]:
-    """Kinetic [5] and geometric [12] features and the speed in m/s of each 4 s of a pelvis.
-
-    What is left at the end is dropped; a shorter trajectory is one piece.
-    """
+    """Kinetic [5] and geometric [12] features and the speed in m/s of each 4 s of a pelvis, without
+    what is left at the end; a shorter trajectory is one piece."""
     size = round(PIECE * trajectory.fps)
     starts = range(0, max(trajectory.num_frames - size, 0) + 1, size)
     pieces = [MotionTrajectory(trajectory.data[at : at + size], trajectory.fps) for at in starts]

@@ -2,8 +2,7 @@
 
 T frames. Positions by forward kinematics on the canonical skeleton; nothing learned. Left comes
 before right in every pair. Then kinematic definitions of actions: thresholds lie between what the
-synthetic source and real mocap do and what they do not do when another action is asked for; a
-frozen pose and noise fail every check.
+synthetic source and real mocap do for them and for others; a frozen pose and noise fail every one.
 """
 
 import math

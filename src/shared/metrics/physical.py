@@ -164,13 +164,12 @@ def slide_per_metre(positions: np.ndarray, fps: float) -> float:
 
 
 def unsupported(positions: np.ndarray, fps: float) -> tuple[np.ndarray, np.ndarray]:
-    """Frames [T] in which the body floats, and in which it flies.
+    """Frames [T] in which the body floats, and in which it flies: no joint of positions [T, K, 3]
+    is within 2 cm of where the ball of a standing foot is.
 
-    No joint of positions [T, K, 3] is within 2 cm of where the ball of a standing foot is. A run of
-    such frames is a flight if the mean of the joints falls at more than half of g, by the parabola
-    through the run and one frame on either side; a run that fills the clip has no start and
-    counts as it falls. Lying and sitting bodies whose feet are up float a little, as joints lie
-    inside a body.
+    A run of such frames is a flight if the mean of the joints falls at more than half of g, by the
+    parabola through the run and one frame on either side, where there is one. Lying and sitting
+    bodies whose feet are up float a little, as joints lie inside a body.
     """
     high = positions[..., 1].min(1) > REST_FOOT_HEIGHT + FLOATING
     centre = positions[..., 1].mean(1)

@@ -148,11 +148,8 @@ class PhaseError:
 
 
 def phase_error(phase: np.ndarray, truth: np.ndarray) -> PhaseError:
-    """Compare phases [T] of at least one frame, both in the same cycles.
-
-    Circular statistics after Fisher 1993, §2.3. The offset of errors that cancel out is noise:
-    look at the concentration first.
-    """
+    """Compare phases [T] of at least one frame, both in the same cycles (Fisher 1993, §2.3). The
+    offset of errors that cancel out is noise: look at the concentration first."""
     error = circular_error(phase, truth)
     mean = np.exp(2j * np.pi * error).mean()
     return PhaseError(
@@ -220,13 +217,9 @@ COLUMNS = ("motion_to_music", "music_to_motion", "f", "hits", "distance")
 
 
 def rhythm(motion: np.ndarray, music: np.ndarray, seconds: float) -> Rhythm:
-    """Score motion beats [N] against music beats [M] within [0, seconds), both ascending.
-
-    Beats outside count as neighbours, never as beats of their own. A motion that never slows down
-    has no beats and scores 0: it must not win by leaving.
-
-    Raises ValueError: a time is NaN or infinite.
-    """
+    """Score motion beats [N] against music beats [M], both ascending, within [0, seconds); those
+    outside are neighbours alone. Without beats, never slowing down, a motion scores 0.
+    Raises ValueError: a time is NaN or infinite."""
     if not (np.isfinite(motion).all() and np.isfinite(music).all()):
         raise ValueError("beat times hold NaN or infinity")
     made, heard = _inside(motion, seconds), _inside(music, seconds)
@@ -251,10 +244,8 @@ def _both_ways(
 
 
 def hit_f_measure(reference: np.ndarray, estimate: np.ndarray) -> float:
-    """F-measure of beats matched one to one within 70 ms, both ascending.
-
-    Times on a line: taking the earliest pair that fits gives a largest matching.
-    """
+    """F-measure of beats matched one to one within 70 ms, both ascending: on a line the earliest
+    pair that fits gives a largest matching."""
     if not len(reference) or not len(estimate):
         return 0.0
     matched = i = k = 0
