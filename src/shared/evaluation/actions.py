@@ -68,10 +68,8 @@ SHOWN = {
 
 
 def descriptor(motion: Motion) -> np.ndarray:
-    """What a body does, as numbers [F]: poses, speeds, rhythm of the limbs, swings, travel.
-
-    Joints are seen from the pelvis in the momentary heading frame; metres, seconds, radians.
-    """
+    """What a body does, as numbers [F] in metres, seconds, radians: poses, speeds, rhythm of the
+    limbs, swings, travel; joints are seen from the pelvis in the momentary heading frame."""
     joints = motion.positions().astype(np.float64)  # T K 3
     heading = np.unwrap(heading_of(motion).astype(np.float64))
     body = heading_frame(joints, heading)
@@ -236,17 +234,16 @@ def as_asked(values: Tensor, frames: int) -> Motion:
 def examples(
     data: PreparedData, records: Sequence[ClipRecord], frames: int
 ) -> tuple[list[ClipRecord], list[Motion]]:
-    """What a judge learns from: the first frames of clips, and gestures from rest to rest, too.
-
-    Of waves that are always cut off it would learn that an arm which comes down was only raised.
-    """
-    found: list[tuple[ClipRecord, Tensor]] = []
+    """What a judge learns from: the first frames of clips, and gestures from rest to rest, too: of
+    waves that are always cut off it would learn that an arm which comes down was only raised."""
+    shown, motions = list[ClipRecord](), list[Motion]()
     for record in records:
         values = data.features(record)
-        found.append((record, values[:frames]))
-        if (whole := rested(values, frames)) is not None:
-            found.append((record, whole))
-    return [record for record, _ in found], [decode_features(values) for _, values in found]
+        for part in (values[:frames], rested(values, frames)):
+            if part is not None:
+                shown.append(record)
+                motions.append(decode_features(part))
+    return shown, motions
 
 
 def judged_by(records: Sequence[ClipRecord]) -> list[ClipRecord]:
@@ -261,10 +258,8 @@ def same_action(wanted: str, found: str) -> bool:
 
 
 def shown(parts: Sequence[dict[str, str]], motion: Motion) -> bool:
-    """Whether direction, turn, side, count and angle are those of the labels, as far as asked.
-
-    Of several `parts` that are done at once, a hand that is up need not be higher than the other.
-    """
+    """Whether direction, turn, side, count and angle are those of the labels, as far as asked; of
+    several `parts` done at once, a hand that is up need not be higher than the other."""
     measured, other = measure(motion), {"left": "right", "right": "left"}
     for labels in parts:
         rest = [part.get("side") for part in parts if part is not labels]
@@ -318,11 +313,10 @@ def action_reliability(
     kept: Path | None = None,
     progress: Progress = lambda text: None,
 ) -> dict[str, float]:
-    """Share of `tries` in which each action of the training clips was shown.
+    """Share of `tries` in which each action of the training clips was shown: (successes + 1) /
+    (tries + 2), the mean of the posterior under a uniform prior (Laplace), as one try tells little.
 
-    (successes + 1) / (tries + 2), the mean of the posterior under a uniform prior (Laplace): one
-    try tells little. What was found is kept in the file `kept`, so that the next call goes on
-    there; whoever asks another model, or by another judge, names another file.
+    The next call goes on from the file `kept`; another model or judge needs another one.
     """
     train = _captioned(data)
     asked = []
@@ -400,12 +394,9 @@ def speed_class(labels: dict[str, str], m: Measurements) -> str | None:
 
 
 def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bool]:
-    """What the labels ask for → whether the motion does it.
-
-    Besides the names in `CHECKS` the answer may hold "count" (the named number of repetitions,
-    exactly), "speed" (the named speed class) and "angle" (within 20°).
-    Labels that cannot be measured (style, unknown actions) ask for nothing.
-    """
+    """What the labels ask for → whether the motion does it: names in `CHECKS`, "count" (of
+    repetitions, exactly), "speed" (the class) and "angle" (within 20°). Labels that cannot be
+    measured (style, unknown actions) ask for nothing."""
     m = motion if isinstance(motion, Measurements) else measure(motion)
     answers = {name: CHECKS[name](m) for name in _names(labels)}
     count = repetitions(labels.get("action", ""), m, labels.get("side"))

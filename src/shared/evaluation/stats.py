@@ -88,8 +88,8 @@ def paired_bootstrap(
 ) -> Difference:
     """Mean of b - a over pairs with its percentile interval (Efron & Tibshirani 1993, §13.3, §16).
 
-    Entries i of a and b [N] are a pair. `num` times (B) pairs are drawn with replacement, so that
-    what makes a prompt hard for both counts for neither. A pair with a NaN is left out.
+    Of pairs a[i], b[i] without a NaN, drawn with replacement `num` times (B), so that what makes a
+    prompt hard for both counts for neither.
 
     Raises ValueError: different lengths, or fewer than two pairs.
     """

@@ -203,15 +203,13 @@ def printed(grid: Grid) -> Table:
     """A table as text; where rows differ in number, a column says how many motions and runs."""
     counted = any(row.num is not None for row in grid.rows.values())
     header = [grid.head, *(column.heading for column in grid.columns)]
-    rows = [
-        [name, *(cell_text(row.cells.get(column.key), column) for column in grid.columns)]
-        for name, row in grid.rows.items()
-    ]
-    if counted:
-        header.append("N × runs")
-        for cells, row in zip(rows, grid.rows.values(), strict=True):
+    header += ["N × runs"] if counted else []
+    rows = []
+    for name, row in grid.rows.items():
+        rows.append([name, *(cell_text(row.cells.get(c.key), c) for c in grid.columns)])
+        if counted:
             both = (str(number) for number in (row.num, row.replications) if number is not None)
-            cells.append(" × ".join(both) if row.num is not None else "–")
+            rows[-1].append(" × ".join(both) if row.num is not None else "–")
     return Table(grid.title, header, rows, grid.note)
 
 

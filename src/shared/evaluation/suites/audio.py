@@ -1,9 +1,8 @@
 """The audio suite: does the music matter, and does the motion hold together?
 
-Motions are made for held-out synthetic songs whose beats are known exactly. Every family of
-`AUDIO_FAMILIES` is measured on them, on the same motions under another song, on frozen and
-untrained ones, and on real paired motion, replication by replication. Then phase, alignment and
-seams, and sound files.
+Motions are made for held-out synthetic songs whose beats are known exactly. `AUDIO_FAMILIES` are
+measured on them, on the same motions under another song, on frozen and untrained ones, and on real
+paired motion, replication by replication. Then phase, alignment and seams, and sound files.
 
 Letters: T frames, N songs.
 """
@@ -122,8 +121,7 @@ class AudioContext:
     def played(self) -> Made:
         """A motion for each sound file."""
         made: Made = []
-        pieces = [] if self.songs is None else tracks(self.songs, self.settings.track_seconds)
-        for piece in pieces:
+        for piece in tracks(self.songs, self.settings.track_seconds) if self.songs else ():
             self.progress(piece.name)
             made.append((piece, self.dance(piece)))
         return made
@@ -224,10 +222,6 @@ class AudioContext:
     def phase(self) -> list[Grid]:
         """Rows by name, see `phase_row`; "right tempo" are songs whose tempo the tracker found."""
         made, rng = self.made(0), np.random.default_rng([self.settings.seed, 1])
-        counted = self._counted("own count")
-        blind: Counted = []
-        if self.settings.untrained:
-            blind = self._counted("untrained, own count", untrained=True)
         own = [(piece, motion.phase_unwrapped) for piece, motion in made]
         tracked = [(p, np.asarray(p.phase)) for p, _ in made if p.phase is not None]
         groups: dict[str, Counted] = {
@@ -235,10 +229,12 @@ class AudioContext:
             "beat tracker": tracked,
             "generated, right tempo": [pair for pair in own if right_tempo(pair[0])],
             "beat tracker, right tempo": [pair for pair in tracked if right_tempo(pair[0])],
-            "own count": counted,
-            "untrained, own count": blind,
-            "chance": [(piece, bars + rng.random()) for piece, bars in tracked],
+            "own count": self._counted("own count"),
         }
+        if self.settings.untrained:
+            name = "untrained, own count"
+            groups[name] = self._counted(name, untrained=True)
+        groups["chance"] = [(piece, bars + rng.random()) for piece, bars in tracked]
         rows = {n: GridRow(phase_row(group), len(group), 1) for n, group in groups.items() if group}
         return [Grid.of("phase of a song", rows, name="phase")]
 
@@ -257,9 +253,8 @@ class AudioContext:
         samples = {"generated": self.sample(0)}
         if self.settings.untrained:
             samples["untrained"] = self.sample(0, untrained=True)
-        if len(self.reference):
-            samples["real"] = self.reference
-        found = {name: sample.beside("beats", beats_of) for name, sample in samples.items()}
+        samples["real"] = self.reference
+        found = {n: each.beside("beats", beats_of) for n, each in samples.items() if len(each)}
         return alignment_grids(found, self.settings.seed)
 
     def seams(self) -> list[Grid]:
@@ -367,14 +362,9 @@ def _track(piece: Piece, trajectory: MotionTrajectory, seed: int) -> dict[str, f
 def evaluate_audio(
     context: AudioContext, *, about: Mapping[str, Any] | None = None, folder: Path | None = None
 ) -> Report:
-    """The whole report as plain data.
-
-    Args:
-        about: what to repeat in the report; `model` and `decoder` are names or folders.
-        folder: of the report: finished parts are kept there and not measured again.
-
-    Raises UserError: the data or a song cannot be used, or the folder holds another report.
-    """
+    """The whole report as plain data; `about` is what to repeat in it (`model` and `decoder` are
+    names or folders), in its `folder` finished parts are kept and not measured again.
+    Raises UserError: the data or a song cannot be used, or the folder holds another report."""
     about = about or {}
     suite = Suite(
         "audio",

@@ -119,10 +119,10 @@ class EditContext:
         for who, generator in self.generators.items():
             for kind in ("between ends", *REDONE):
                 self.progress(f"edits: {kind}, {who}")
-                made = []
-                for clip, given, text, seed in self._tasks(kind):
-                    motion = edited(generator, text, given, Sampling(seed=seed)).motion
-                    made.append((motion, clip, given))
+                made = [
+                    (edited(generator, text, given, Sampling(seed=seed)).motion, clip, given)
+                    for clip, given, text, seed in self._tasks(kind)
+                ]
                 rows[f"{kind}: {who}"] = self._kept_row(made)
         tasks = [(clip, given) for clip, given, _, _ in self._tasks("a second")]
         back = [(clip, clip, given) for clip, given in tasks]
@@ -178,12 +178,11 @@ class EditContext:
     def transitions(self, judge: Evaluator) -> list[Grid]:
         """One action after the other."""
         seed, pairs, made = self.settings.seed, self.pairs, dict[str, list[Motion]]()
+        timelines = [Timeline(tuple(Passage(text, HALF) for text in pair)) for pair in pairs]
         for who, generator in self.generators.items():
             self.progress(f"transitions: {who}")
-            made[who], sentences = [], SentenceGenerator(generator)
-            for k, pair in enumerate(pairs):
-                timeline = Timeline(tuple(Passage(text, HALF) for text in pair))
-                made[who].append(sentences.timeline(timeline, Sampling(seed=seed + k)))
+            make = SentenceGenerator(generator).timeline
+            made[who] = [make(each, Sampling(seed=seed + k)) for k, each in enumerate(timelines)]
         self.progress("transitions: hard cut")
         made["hard cut"] = []  # what a transition looks like that nobody made
         for k, pair in enumerate(pairs):

@@ -76,12 +76,12 @@ def evaluate_sanity(
     Raises UserError: the data cannot be used.
     """
     settings, started = settings or SanitySettings(), time.perf_counter()
-    model, bands = generator.model, generator.bands
-    real: list[MotionTrajectory] = []
+    model = generator.model
     progress("sound that training never saw")
     if data is None:
         songs = conditions_of_songs(settings.num_samples, settings.num_frames, settings.seed)
         facts: dict[str, Any] = {"sound": f"held-out synthetic songs, tempi {TEMPI} BPM"}
+        real, bands = list[MotionTrajectory](), generator.bands
     else:
         songs, real, bands, facts = _from_data(data, model, settings)
     few = songs[: max(1, len(songs) // 5)]

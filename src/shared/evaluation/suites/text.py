@@ -147,9 +147,9 @@ class TextContext:
         asked = real.rows([row % len(real) for row in range(num)])
         order = np.random.default_rng(seed).permutation(len(real)).tolist()
         samples = {"real": real, "chance": real.reordered(order)}
-        for name, sampler in (("generated", self.sampler), (UNTRAINED, self.untrained)):
-            if sampler is not None:
-                samples[name] = self.made(asked, sampler, seed)
+        samples["generated"] = self.made(asked, self.sampler, seed)
+        if self.untrained is not None:
+            samples[UNTRAINED] = self.made(asked, self.untrained, seed)
         at_3 = {n: bootstrap_mean(r_precision(each, seed)[2]) for n, each in samples.items()}
         score = normalised_score(*(at_3[k].value for k in ("generated", "chance", "real")))
         return {"cells": plain({**at_3, "normalised": score}), "num": num}

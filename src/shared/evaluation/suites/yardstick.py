@@ -77,11 +77,10 @@ class Asked:
 
 def too_few(kept: Sequence[ClipRecord], known: set[str]) -> str:
     """Why captured clips held back from training are not enough to measure by, and what to do."""
+    foreign = [r for r in kept if r.tag and r.tag not in known]
     faults = {
         "have no action label": sum(not r.tag for r in kept),
-        "an action that no captured clip of training shows": sum(
-            bool(r.tag) and r.tag not in known for r in kept
-        ),
+        "an action that no captured clip of training shows": len(foreign),
         f"fewer than {MIN_FRAMES} frames": sum(r.num_frames < MIN_FRAMES for r in kept),
     }
     if not any(faults.values()):
