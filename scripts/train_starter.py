@@ -157,7 +157,7 @@ def ship(trained: Path, name: str, licence: str, description: str) -> None:
 
 def ship_judge(trained: Path) -> None:
     """Write the evaluator beside it."""
-    from src.shared.evaluation.evaluator import Evaluator
+    from src.shared.model.evaluator import Evaluator
 
     judge = Evaluator.from_pretrained(trained)
     judge.save_pretrained(SHIPPED / "evaluator", notes=judge.notes)

@@ -178,12 +178,12 @@ def evaluate_performer(
         options.check_data(clips)
     options.check_folder("--out", out)
 
-    from ..shared.evaluation.evaluator import Evaluator
     from ..shared.evaluation.pages import save_report
     from ..shared.evaluation.samples import open_held_out
     from ..shared.evaluation.suites import dance
     from ..shared.evaluation.suites.editing import EditContext, EditSettings
     from ..shared.io.files import sole_writer
+    from ..shared.model.evaluator import Evaluator
     from ..shared.model.generation.motion_generator import TextToMotion
     from ..shared.pipelines.body import PerformerSettings
     from ..shared.pipelines.song import SongGenerator

@@ -15,8 +15,8 @@ from ..shared.data.captions.book import drop_words
 from ..shared.data.prepare import open_data
 from ..shared.data.prepared import PreparedData
 from ..shared.errors import UserError
-from ..shared.evaluation.evaluator import Evaluator, EvaluatorConfig, joint_features, padded
 from ..shared.metrics.retrieval import BATCH, TOP, guo_retrieval
+from ..shared.model.evaluator import Evaluator, EvaluatorConfig, joint_features, padded
 from .launch import STAGES
 from .task import Part, Task, mix_seed
 from .text_stages import can_retrieve

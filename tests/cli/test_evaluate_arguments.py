@@ -9,11 +9,11 @@ from typer.testing import CliRunner
 from src.cli.evaluate import Request
 from src.cli.tools import app
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.suites import text as harness
 from src.shared.evaluation.suites.text import TextSettings
 from src.shared.evaluation.tables import report_data
 from src.shared.model.clip.tokenizer import PromptTokenizer
+from src.shared.model.evaluator import Evaluator
 
 
 @pytest.mark.parametrize(

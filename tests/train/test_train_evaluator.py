@@ -10,7 +10,7 @@ from src.shared.config_loader import load_train
 from src.shared.config_schema import TrainEvaluatorConfig
 from src.shared.data.prepared import PreparedData
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator
+from src.shared.model.evaluator import Evaluator
 from src.train.launch import STAGES
 from src.train.task import Part
 from src.train.train_evaluator import EvaluatorTask, PairSet, contrastive_loss

@@ -170,7 +170,7 @@ def test_a_name_on_the_hub_is_a_model_in_python(
 def test_a_judge_goes_through_the_hub_as_well(hub: Hub, run, tools):
     done = tools("models", "push", PRETRAINED / "evaluator", "lab/judge")
     assert done.returncode == 0, done.stderr
-    code = "from src.shared.evaluation.evaluator import Evaluator as E;"
+    code = "from src.shared.model.evaluator import Evaluator as E;"
     code += "print(*(E.from_pretrained(n).content_hash for n in ('lab/judge', 'evaluator')))"
     done = run("-c", code)
     assert len(set(done.stdout.split())) == 1, done.stderr

@@ -25,6 +25,7 @@ from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import body_beats, limb_beats, rhythm
 from ...metrics.seams import ORDERS, body_quantities, compare, marked, split, starts
 from ...model.audio.audio_motion_model import AudioMotionModel
+from ...model.evaluator import Evaluator
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.postprocess.contacts import contact_runs
@@ -38,7 +39,6 @@ from ...pipelines.song import SongCondition, SongGenerator, finished
 from ...pipelines.song_sampler import SongSampling
 from ...pipelines.stream import OVERLAP, WINDOW, Passage, window_lengths
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..evaluator import Evaluator
 from ..families import DANCE_FAMILIES, MOMENTS
 from ..manifest import Parts, Sources, model_hashes, song_hashes
 from ..samples import Bodies, Dance, DanceSample, Memo, held_still, untrained

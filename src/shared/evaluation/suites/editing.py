@@ -15,6 +15,7 @@ from ...metrics.retrieval import rank_of
 from ...metrics.rhythm import seen_from_pelvis
 from ...metrics.seams import ACCELERATION, body_quantities, marked
 from ...model.diffusion import Sampling
+from ...model.evaluator import Evaluator
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.postprocess.stitching import joined, moved_to, place_of
@@ -24,7 +25,6 @@ from ...pipelines.stream import Passage
 from ...pipelines.text import SentenceGenerator
 from ...pipelines.timeline import Timeline
 from ..engine import Progress
-from ..evaluator import Evaluator
 from ..samples import Clips, HeldOut, held_still, real_clips, untrained
 from ..stats import bootstrap_columns, bootstrap_mean
 from ..tables import Cell, Grid, GridRow

@@ -25,6 +25,7 @@ from ...metrics import kinetic
 from ...metrics.retrieval import BATCH, TOP, in_batches
 from ...metrics.rhythm import against_chance, motion_beats, rhythm
 from ...metrics.sanity import Bands
+from ...model.evaluator import Evaluator
 from ...model.generation.motion_generator import TextToMotion
 from ...motion.motion import Motion
 from ...motion.trajectory import FPS, MotionTrajectory
@@ -32,7 +33,6 @@ from ...pipelines.ranking import AudioJudge, PromptSampler, TextJudge, load_towe
 from ...pipelines.song import AudioCondition, SongGenerator, own_noise
 from ...pipelines.song_sampler import SongSampling
 from ..engine import Progress, Value
-from ..evaluator import Evaluator
 from ..families import OBEDIENCE, PHYSICS, TRAVEL
 from ..samples import Clips, MotionSample, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated

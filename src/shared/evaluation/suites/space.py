@@ -23,9 +23,9 @@ from ...model.audio.conditioning import BEAT, with_phase_rows
 from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer
+from ...model.evaluator import padded
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
-from ..evaluator import padded
 from ..samples import rows_of_each, untrained_audio_tower, untrained_motion_tower
 from ..stats import Estimate
 from ..tables import Grid, GridRow, Report, report_data

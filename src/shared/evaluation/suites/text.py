@@ -21,10 +21,10 @@ from ...data.prepared import ClipRecord
 from ...errors import UserError
 from ...formats.arrays import write_npz
 from ...metrics.retrieval import BATCH, normalised_score
+from ...model.evaluator import Evaluator, evaluator_folder
 from ...motion.motion import Motion
 from .. import manifest
 from ..engine import Bench, Progress, Row, Suite, run_suite
-from ..evaluator import Evaluator, evaluator_folder
 from ..families import TEXT_FAMILIES, r_precision
 from ..manifest import Part, Parts, Sources
 from ..samples import (

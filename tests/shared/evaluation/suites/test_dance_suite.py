@@ -12,7 +12,6 @@ from src.shared.data.prepare import prepare
 from src.shared.data.prepared import PreparedData
 from src.shared.data.sources import SyntheticSource
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.samples import HeldOut
 from src.shared.evaluation.suites import editing
@@ -26,6 +25,7 @@ from src.shared.evaluation.suites.editing import EditContext, EditSettings
 from src.shared.evaluation.suites.songs import captured_dances
 from src.shared.evaluation.tables import Grid, grids, markdown
 from src.shared.formats.arrays import write_npz
+from src.shared.model.evaluator import Evaluator
 from src.shared.motion.features import encode_features
 from src.shared.pipelines.body import PerformerSettings
 from src.shared.pipelines.path import DrawnPath

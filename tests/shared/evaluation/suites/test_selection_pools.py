@@ -7,7 +7,6 @@ import pytest
 import torch
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import Clips
 from src.shared.evaluation.suites.selection import (
     FIGURES,
@@ -20,6 +19,7 @@ from src.shared.evaluation.suites.selection import (
 )
 from src.shared.evaluation.suites.songs import held_out_songs
 from src.shared.metrics.retrieval import guo_retrieval
+from src.shared.model.evaluator import Evaluator, EvaluatorConfig
 from src.shared.pipelines.ranking import AudioJudge, PromptSampler
 from src.shared.pipelines.song import SongGenerator
 from src.shared.pipelines.song_sampler import SongSampling

@@ -8,7 +8,6 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.evaluator import padded
 from src.shared.evaluation.samples import untrained_audio_tower
 from src.shared.evaluation.suites.space import (
     CHANCE,
@@ -25,6 +24,7 @@ from src.shared.evaluation.suites.space import (
 )
 from src.shared.evaluation.tables import Grid, markdown
 from src.shared.model.audio.shared_space import rate_rows
+from src.shared.model.evaluator import padded
 from src.shared.motion.features import FORWARD, ROOT_ROW
 from tests.shared.evaluation.space_samples import tiny_bundle, tiny_space, write_space_phrases
 

@@ -19,7 +19,6 @@ from src.shared.data.prepare import open_data
 from src.shared.data.prepared import PreparedData
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.samples import HeldOut, Sampler
 from src.shared.evaluation.suites import control as control
 from src.shared.evaluation.suites.control import control_grid
@@ -38,6 +37,7 @@ from src.shared.evaluation.tables import (
     printed,
     tables,
 )
+from src.shared.model.evaluator import Evaluator, EvaluatorConfig
 from src.shared.motion.motion import Motion
 from src.train.train_evaluator import PairSet, contrastive_loss
 

@@ -11,10 +11,10 @@ import torch
 
 from src.shared.data.prepare import prepare
 from src.shared.data.sources import SyntheticSource
-from src.shared.evaluation.evaluator import Evaluator, EvaluatorConfig
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.suites.text import TextSettings, evaluate_text
 from src.shared.evaluation.tables import grids
+from src.shared.model.evaluator import Evaluator, EvaluatorConfig
 from tests.shared.model.conftest import tiny_generator
 
 SETTINGS = TextSettings(

@@ -30,12 +30,12 @@ from ..config_schema import Config
 from ..errors import UserError
 from ..io.files import atomic_write, load_json, sha256_file, write_json
 from ..metrics.retrieval import NUM_BUCKETS, caption_buckets
-from ..model import checkpoint
-from ..model.checkpoint import PRETRAINED, WeightsInfo, check_weights, weights_info
 from ..motion.features import FORWARD, HEIGHT, LATERAL, YAW_RATE, encode_features
 from ..motion.motion import Motion
 from ..motion.rotations import forward_kinematics, rotation_6d_to_matrix
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
+from . import checkpoint
+from .checkpoint import PRETRAINED, WeightsInfo, check_weights, weights_info
 
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3

@@ -7,14 +7,14 @@ import pytest
 import torch
 
 from src.shared.errors import UserError
-from src.shared.evaluation.evaluator import (
+from src.shared.metrics.retrieval import caption_buckets
+from src.shared.model.evaluator import (
     NUM_FEATURES,
     Evaluator,
     EvaluatorConfig,
     bag,
     joint_features,
 )
-from src.shared.metrics.retrieval import caption_buckets
 from src.shared.motion.features import encode_features
 from src.shared.motion.motion import Motion
 
