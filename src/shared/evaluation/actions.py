@@ -236,14 +236,14 @@ def examples(
 ) -> tuple[list[ClipRecord], list[Motion]]:
     """What a judge learns from: the first frames of clips, and gestures from rest to rest, too: of
     waves that are always cut off it would learn that an arm which comes down was only raised."""
-    shown, motions = list[ClipRecord](), list[Motion]()
+    owners, motions = list[ClipRecord](), list[Motion]()
     for record in records:
         values = data.features(record)
         for part in (values[:frames], rested(values, frames)):
             if part is not None:
-                shown.append(record)
+                owners.append(record)
                 motions.append(decode_features(part))
-    return shown, motions
+    return owners, motions
 
 
 def judged_by(records: Sequence[ClipRecord]) -> list[ClipRecord]:
