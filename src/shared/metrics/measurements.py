@@ -103,6 +103,7 @@ class Measurements:
     claps: int  # times the hands meet in front of the body
     slashes: int  # times both hands, held together, sweep far in a third of a second
     bows: int  # times the chest bends forward and comes up again
+    calls: int  # times it does so with a hand at the face
     squats: int  # times the pelvis goes deep and comes up again with the feet on the ground
     jumps: int  # times both feet leave the ground together, the pelvis above standing height
     pelvis_low: float  # lowest pelvis height over standing height
@@ -272,11 +273,16 @@ def _arms_at_work(tracks: _Tracks) -> Figures:
     tilt = np.degrees(np.arcsin(np.clip((up[:, [0, 2]] * faced).sum(-1), -1, 1)))
     tall = tracks.joints[:, 0, 1] > 0.83 * REST_PELVIS_HEIGHT  # else it is a squat or a jump
     tilt = np.where(tall & (_ground_speed(tracks) < 0.5), tilt, np.minimum(tilt, 25.0))
+    at_face = np.zeros(len(tilt), bool)
+    for wrist in (left, right):
+        raised = ((wrist - tracks.joint("spine3")) * up).sum(-1) > 0
+        at_face |= raised & (np.linalg.norm(wrist - tracks.joint("head"), axis=-1) < 0.45)
     return {
         "punches": tuple(punches),
         "claps": claps,
         "slashes": count_peaks(swept, 0.4, 0.2),
         "bows": count_peaks(smooth(tilt, 5), 35.0, 18.0),
+        "calls": count_peaks(np.where(at_face, smooth(tilt, 5), 0.0), 40.0, 18.0),
     }
 
 
@@ -439,6 +445,7 @@ _ACTIONS: dict[str, Check] = {
     "kick": lambda m: max(m.kicks) >= 1,
     "punch": lambda m: max(m.punches) >= 1 and not _travels(m, 0.25),
     "slash": lambda m: m.slashes >= 1,
+    "call": lambda m: m.calls >= 1,
     **dict.fromkeys(("raise", "bye"), lambda m: _hand_up(m, 0) or _hand_up(m, 1)),
     **{name: _RAW[name] for name in ("squat", "jump", "clap", "bow", "stand")},
 }

@@ -538,11 +538,8 @@ def natural_gait(generator: TextToMotion, passage: Passage, sampling: Sampling) 
     return Gait(speed, -way, turning, height)
 
 
-def time_of_steps(
-    generator: TextToMotion, passage: Passage, steps: float, sampling: Sampling
-) -> float:
-    """Seconds of so many steps at a passage's own pace."""
-    speed = natural_gait(generator, passage, sampling).speed
+def time_of_steps(steps: float, speed: float) -> float:
+    """Seconds of so many steps at a natural speed, m/s."""
     return steps * math.sqrt(60 * WALK_RATIO / speed)
 
 

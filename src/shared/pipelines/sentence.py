@@ -56,11 +56,18 @@ class Reading(NamedTuple):
         action: None where nobody can say.
         certainty: log odds that this is it.
         arms: whether the arms alone do it.
+        known: whether it is near enough to what was learned.
     """
 
     action: str | None = None
     certainty: float = -math.inf
     arms: bool = False
+    known: bool = True
+
+    @property
+    def surely(self) -> str | None:
+        """The action, where it is sure."""
+        return self.action if self.certainty > SURE else None
 
 
 Read = Callable[[str], Reading]
@@ -163,12 +170,12 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     text = _bared(text, read) if arms or not alone else text
     if _says("ups", text, read):
         text = STANDS
-    if not alone and _says("bends", text, read) and _surely(read(text)) != "turn":
+    if not alone and _says("bends", text, read) and read(text).surely != "turn":
         text = f"turns {side_of(text)}"
-    if _says("posed", arms, read) and _surely(read(arms)) != "raise":
+    if _says("posed", arms, read) and read(arms).surely != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
     spot = place_kept(text) if clause.metres is clause.degrees is None else None
-    if spot and _surely(read(rest := _without(text, spot))) in GOING:
+    if spot and read(rest := _without(text, spot)).surely in GOING:
         text, clause = rest, replace(clause, metres=0.0)
     return replace(clause, text=text, meanwhile=arms)
 
@@ -176,8 +183,8 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
 def _bared(text: str, read: Read) -> str:
     """A text, without its subject where only then it is sure what it asks for."""
     rest = all_words().subject.sub("", text)
-    unsure = rest != text and _surely(read(text)) is None
-    return rest if unsure and _surely(read(rest)) else text
+    unsure = rest != text and read(text).surely is None
+    return rest if unsure and read(rest).surely else text
 
 
 def whole(sentence: str, found: Sequence[Clause]) -> str:
@@ -185,10 +192,6 @@ def whole(sentence: str, found: Sequence[Clause]) -> str:
     text, first = tidied(sentence), found[0]
     cut = first.text != _trimmed(plain_text(text)) and len(found) == 1 and first.plain
     return first.text if cut else text
-
-
-def _surely(reading: Reading) -> str | None:
-    return reading.action if reading.certainty > SURE else None
 
 
 def _staying(text: str, read: Read) -> str:
@@ -202,14 +205,14 @@ def _staying(text: str, read: Read) -> str:
             stop = long[0]
         own = left[left.rfind(ARROW.strip()) + 1 :]
         tail = own[max((each.end() for each in words.joint.finditer(own)), default=0) :]
-        tried = (_surely(read(_measured(_trimmed(each)).text)) for each in (tail, own))
+        tried = (read(_measured(_trimmed(each)).text).surely for each in (tail, own))
         action, said = next(filter(None, tried), None), ""
         if re.search("[不没别勿]", left[-4:]):
             action = None
         stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
         # "crouches and stays down", not "sneaks, staying low"
         if stays and action == "crouch-walk":
-            whole = _surely(read(_measured(_trimmed(own + match[0])).text))
+            whole = read(_measured(_trimmed(own + match[0])).text).surely
             if whole == "squat" or words.crouches.search(own):
                 left, action = f"{left[: len(left) - len(own)]}{SQUATS}", "squat"
         if stays and action in HOLDABLE:
@@ -280,7 +283,7 @@ def _ordered(text: str, read: Read) -> list[str]:
             if bound and words.ended.search(left) and words.comma.search(right.lstrip(), 1):
                 found = left, text[match.start() :]  # "Sits. Once he has waved, he bows."
                 break
-            if bound and not _is_time(text, match, right, read):
+            if bound and not _is_time(text, match, right, read, sure=True):
                 continue
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
                 left, right = _around(left, right, match[0], read)
@@ -292,12 +295,12 @@ def _ordered(text: str, read: Read) -> list[str]:
     return [_trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
 
 
-def _is_time(text: str, word: re.Match[str], right: str, read: Read) -> bool:
+def _is_time(text: str, word: re.Match[str], right: str, read: Read, sure: bool = False) -> bool:
     """Whether "before" or "after" says when; a noun behind it may be a place or a thing."""
     if all_words().noun.match(text, word.start()) is None:
         return True
     noun = read(_measured(_trimmed(all_words().stop.split(right, maxsplit=1)[0])).text)
-    return noun.action is None or noun.certainty > SURE
+    return noun.action is None or (noun.certainty > SURE and (noun.known or not sure))
 
 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
@@ -334,7 +337,7 @@ def _joined(text: str, read: Read) -> list[str]:
     if denial and not (who and read(who).certainty > SURE):
         rest = _trimmed(text[denial.end() :])
         instead, denied = read(_measured(rest).text), read(_trimmed(denial[0]))
-        if instead.certainty > SURE or (rest and _surely(denied) not in (None, instead.action)):
+        if instead.certainty > SURE or (rest and denied.surely not in (None, instead.action)):
             text = rest  # not in "don't move, please"
     borders = [match.span() for match in all_words().joint.finditer(text)]
     pieces = [

@@ -29,25 +29,26 @@ from ..metrics.measurements import (
 from ..model.clip.features import TextFeatures
 from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
-from ..model.generation.constraint import Constraint
+from ..model.generation.constraint import Constraint, lead_height
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import TRIES, derived_seed, retry_seeds
 from ..motion.features import (
     FORWARD,
-    HEIGHT,
     LATERAL,
     ROOT_ROW,
     YAW_RATE,
     decode_features,
+    hastened,
     without_drift,
 )
 from ..motion.motion import Motion
-from ..motion.postprocess.whole import rest_to_rest
+from ..motion.postprocess.whole import rest_to_rest, until_landed
 from ..tensors import Tensor, torch
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free, held
 from .path import (
     TURN_REST,
     DrawnPath,
+    Gait,
     circled,
     natural_gait,
     natural_sway,
@@ -62,12 +63,12 @@ from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
-STEPPING = GOING | {"side-step"}
+STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
-DOWN, DOWN_SPEED, DOWN_AHEAD = 0.15, 0.43, 6  # metres, m/s, frames before a clause's own
 HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncounted claps
+CLAP_PACE, TO_LAND = 2, 1.3  # times as fast as made people clap; seconds for a last step to land
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST, UNEASY = 1.0, 0.5  # seconds in which an action is seen; how bad no rest is, by a miss
@@ -89,7 +90,7 @@ class SentenceGenerator:
         self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
         self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
         self._bent, self._told = dict[str, float](), set[str]()
-        self._heights: dict[tuple[str, int], float] = {}
+        self._gaits: dict[tuple[str, Sampling, str | None], Gait] = {}
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
@@ -154,10 +155,9 @@ class SentenceGenerator:
                 steady=[self._steady(prompts[index]) for index in rows],
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
-            several = [found[at : at + num_samples] for at in range(0, len(found), num_samples)]
+            one = iter(found)
             return {
-                index: [self._rested(motion, prompts[index]) for motion in own]
-                for index, own in zip(rows, several, strict=True)
+                i: [self._rested(next(one), prompts[i]) for _ in range(num_samples)] for i in rows
             }
 
         scale, seeds = guidance_scale, retry_seeds(seed)
@@ -189,8 +189,9 @@ class SentenceGenerator:
         return self.generator.encode_prompts(prompts)
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
-        """For each prompt, a line for the first of its clauses that is far from what is known."""
-        return [next(filter(None, self._warnings(prompt)), None) for prompt in prompts]
+        """For each prompt, what is to be said of those of its clauses that are hardly known."""
+        lines = (dict.fromkeys(filter(None, self._warnings(prompt))) for prompt in prompts)
+        return ["; ".join(each) or None for each in lines]
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
         """A line if a motion does not show the action of its prompt, although it was sampled again;
@@ -226,12 +227,18 @@ class SentenceGenerator:
         self._told.add(prompt)
         parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
-        if len(texts) == 1:  # known without its measures, or with them
-            lines = self.generator.scope_warnings([self.whole(prompt)], again=again)
-        if len(texts) > 1 or not (lines == [None] or parts[0].plain):
+        if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
+            lines = self.generator.scope_warnings([said := self.whole(prompt)], again=again)
+            if not parts[0].plain:
+                actions = {self._nearest(said), self._nearest(texts[0])}
+                turns = parts[0].degrees is not None and actions <= ROUND
+                apart = lines != [None] or not (turns or len(actions) == 1)
+        if apart:
             lines = self.generator.scope_warnings(texts, again=again)
-        both = zip(texts, lines, strict=True)
-        lines = [unlearned(text, self.scope) or line for text, line in both]
+        angled = {part.text for part in parts if part.degrees is not None}  # which says it
+        for at, text in enumerate(texts):
+            sure = text in angled and self._reading(text).surely in ROUND
+            lines[at] = unlearned(text, self.scope) or (None if sure else lines[at])
         return self._lines.setdefault(prompt, lines) if again else lines
 
     # ------------------------------------------------------------ one sentence
@@ -283,8 +290,7 @@ class SentenceGenerator:
             seen = measure(motion)
             found = float(wanted is not None and not wanted(seen))
             if found and wanted and len(features) > latest:
-                # One bad window is none of those that follow, and feet are cleaned up yet: a walk
-                # whose height drifts by centimetres seems to fly.
+                # one bad window is none of those that follow; cleaned up, as who drifts seems to fly
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
             several = clause.count > 1 or (frames <= ONCE[1] * fps and self._is_single(clause))
@@ -302,7 +308,7 @@ class SentenceGenerator:
             return Reading()
         action = found.nearest[0]
         one = next((min(twins) for twins in TWINS if action in twins), action)
-        return Reading(one, found.certainty, action in scope.arms)
+        return Reading(one, found.certainty, action in scope.arms, found.known)
 
     def _nearest(self, text: str) -> str | None:
         """The action that is nearest to a text, whether or not it is what the text tells of."""
@@ -334,6 +340,11 @@ class SentenceGenerator:
         known = self._reading(CLAPS)
         return known.action == "clap" and known.certainty > 0 and not says_number(clause.text)
 
+    def _pace(self, clause: Clause) -> int:
+        """How many times as fast a clause is shown as the network makes it."""
+        claps = self._nearest(clause.text) == "clap" and clause.metres is clause.degrees is None
+        return CLAP_PACE if claps and (clause.count > 1 or self._applauds(clause)) else 1
+
     def _turns(self, clause: Clause) -> bool:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
         if clause.degrees is not None or self._nearest(clause.text) == "spin":
@@ -342,13 +353,18 @@ class SentenceGenerator:
             return not turns_head(clause.text)
         return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
 
+    def _gait(self, text: str, sampling: Sampling, tag: str | None = None) -> Gait:
+        if (key := (text, sampling, tag)) not in self._gaits:
+            self._gaits[key] = natural_gait(self.generator, Passage(text, 1, tag), sampling)
+        return self._gaits[key]
+
     def _bend(self, text: str) -> float:
         """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
         what the network makes of it turns, and does not stop turning (experiments, section 44)."""
         if self._nearest(text) not in GOING or (side_of(text) == "both" and not goes_round(text)):
             return 0.0
         if text not in self._bent:
-            turning = natural_gait(self.generator, Passage(text, 1), Sampling()).turning
+            turning = self._gait(text, Sampling()).turning
             left = turning > 0 if (side := side_of(text)) == "both" else side == "left"
             angle = 360.0 if goes_round(text) else 0.0 if abs(turning) < TURNING else CORNER
             self._bent[text] = angle if left else -angle
@@ -361,7 +377,14 @@ class SentenceGenerator:
         once = min(seconds, ONCE[1]) if len(parts) > 1 else seconds  # of several, each is done once
         times = [once if self._is_single(part) else seconds for part in parts]
         stretches = [self._stretch(p, s, tag, sampling) for p, s in zip(parts, times, strict=True)]
-        return self._motion(parts, stretches, text, sampling, lock)
+        (passage, given), action = stretches[-1], self._nearest(parts[-1].text)
+        free = given is None and parts[-1].seconds is None and action in STEPPING
+        steps = round(free * (parts[-1].steps or 0)) * (1 + (action == "side-step"))  # both feet
+        if steps:
+            more = round(TO_LAND * self.card.fps)
+            stretches[-1] = replace(passage, frames=passage.frames + more), None
+        motion = self._motion(parts, stretches, text, sampling, lock)
+        return until_landed(motion, steps, stretches[-1][0].frames, passage.frames)
 
     def timeline(
         self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
@@ -426,7 +449,11 @@ class SentenceGenerator:
                 if start and part.metres == 0:  # who went comes to a stop first
                     stop = start + round(TURN_REST * fps)
                     given.known[start:stop, ROOT_ROW, [FORWARD, LATERAL]] = False
-        led = self._led_down(given, parts, starts, sampling)
+        led, low = False, [self._nearest(part.text) in LOW for part in parts]
+        for at, join in enumerate(starts[1:-1]):  # who sits or kneels down or gets up
+            if low[at] or low[at + 1]:
+                begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
+                led |= lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
         led |= any(constraint is not None for _, constraint in stretches)
@@ -448,6 +475,9 @@ class SentenceGenerator:
             if part.degrees is None and part.metres is None:
                 columns = self._steady(part.text, alone=len(parts) == 1)
                 features[start:stop] = without_drift(features[start:stop], columns)
+        spans = zip(starts, starts[1:], map(self._pace, parts), strict=False)
+        shown = [hastened(features[start:stop], pace) for start, stop, pace in spans]
+        features, starts = torch.cat(shown), [0, *accumulate(map(len, shown))]
         features = add_parts(self.generator, features, limbs, sampling)
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
@@ -461,37 +491,6 @@ class SentenceGenerator:
                 joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
                 motion = rest_to_rest(motion, joins)
         return replace(motion, text=text)
-
-    def _led_down(
-        self, given: Constraint, parts: Sequence[Clause], starts: Sequence[int], sampling: Sampling
-    ) -> bool:
-        """Where somebody sits or kneels down or gets up, the pelvis is known to do so as fast as
-        people do; whether anybody does."""
-        fps, found = self.card.fps, False
-        for (one, other), join in zip(pairwise(parts), starts[1:], strict=False):
-            if not LOW & {self._nearest(one.text), self._nearest(other.text)}:
-                continue
-            begin, end = (self._height(each.text, sampling) for each in (one, other))
-            down = end - begin
-            start = max(join - DOWN_AHEAD, 1)
-            frames = min(round(abs(down) / DOWN_SPEED * fps), len(given.values) - start)
-            if abs(down) < DOWN:
-                continue
-            way = np.linspace(0.0, 1.0, frames)
-            height = begin + down * way**3 * (10 - 15 * way + 6 * way * way)
-            free = ~given.known[start : start + frames, ROOT_ROW, HEIGHT]
-            column = given.values[start : start + frames, ROOT_ROW, HEIGHT]
-            column[free] = torch.as_tensor(height, dtype=column.dtype)[free]
-            given.known[start : start + frames, ROOT_ROW, HEIGHT] = True
-            found = True
-        return found
-
-    def _height(self, text: str, sampling: Sampling) -> float:
-        """Metres of the pelvis in what a text asks for."""
-        key = text, sampling.seed
-        if key not in self._heights:
-            self._heights[key] = natural_gait(self.generator, Passage(text, 1), sampling).height
-        return self._heights[key]
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""
@@ -512,10 +511,11 @@ class SentenceGenerator:
             clause = replace(clause, seconds=exactly / fps)
         steps = self._nearest(clause.text) in STEPPING and clause.seconds is None and clause.steps
         if steps:
-            alone = Passage(clause.text, 1, tag)
-            clause = replace(clause, seconds=time_of_steps(self.generator, alone, steps, sampling))
-        seconds, given = clause.seconds or seconds, None
-        passage = Passage(clause.text, max(1, round(seconds * fps)), tag)
+            gait = self._gait(clause.text, sampling, tag)
+            clause = replace(clause, seconds=time_of_steps(steps, gait.speed))
+        seconds, given, pace = clause.seconds or seconds, None, self._pace(clause)
+        passage = Passage(clause.text, max(1, round(seconds * fps)) * pace, tag)
+        seconds, exactly = seconds * pace, exactly and exactly * pace
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames
             clause = replace(clause, count=max(1, round(seconds / CLAP)))
@@ -574,7 +574,7 @@ class SentenceGenerator:
         seconds, unless nobody goes so fast and it is not `timed`."""
         if not clause.metres:
             return on_the_spot(Constraint.free(passage.frames))
-        speed, facing, *_ = natural_gait(self.generator, passage, sampling)
+        speed, facing, *_ = self._gait(passage.text, sampling, passage.tag)
         ahead = np.array([[0.0, 0.0], [0.0, clause.metres]])
         fps, seconds = self.card.fps, clause.seconds
         last = None if seconds is None else max(seconds * fps - 1, 1) / fps

@@ -45,6 +45,7 @@ _STOPS = (
     r"|(?<=\s)[-/+&|](?=\s)|(?<!\S)\d[.)](?=\s))"
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
+_ARTICLE = re.compile(" (a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$")
 _ONES = "一二三四五六七八九"
 _TENS = f"(?:[{_ONES}]十|十(?=[{_ONES}]))[{_ONES}]?"  # 十 alone is a word of its own
 _DIGITS = rf"(?:\d+(?:[.,]\d+)?|(?:[{_ONES}两]百零?(?:{_TENS}|[{_ONES}])?|{_TENS}))"
@@ -467,37 +468,40 @@ def unlearned_words() -> list[tuple[list[str], str, bool]]:
             loose = language in ("es", "fr")
             for phrase in phrases:
                 words = _between_blanks(phrase, loose=loose)
-                if re.search(f"[{_CJK}]", phrase):
-                    words = words.strip()
+                words = words.strip() if re.search(f"[{_CJK}]", phrase) else words
                 found.append((actions.split(), words[:-1] if phrase[-1] == "*" else words, loose))
     return found
 
 
 def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
     """A line if a text asks for what is none of a model's actions, whatever else it asks for."""
-    if all_words().head_turns.search(text):
+    if turns_head(text):
         return _not_learned(text, "the head alone to turn")
     if scope is None:
         return None
     spans = [word.span() for word in WORD.finditer(plain_text(text))]
-    said = {loose: _between_blanks(text, loose=loose) for loose in (False, True)}
+    said = [_between_blanks(text, loose=loose) for loose in (False, True)]
     names = [_between_blanks(name, loose=False) for name in scope.actions]  # some are captions
-    found = [
-        (len(said[loose][: said[loose].index(words)].split()), words)
+    found = sorted(
+        (said[loose].index(words), -len(words), words, said[loose])
         for actions, words, loose in unlearned_words()
         if words in said[loose]
         and not any(action in scope.actions for action in actions)
         and not any(words in name for name in names)
         and not (scope.captions and scope.words.issuperset(words_of(words)))
-    ]
-    if not found:
-        return None
-    first, words = min(found, key=lambda each: (each[0], -len(each[1])))
-    if words.startswith(" "):  # as it is written, to the end of its last word
-        last = first + len(words.split())
-        words = plain_text(text)[spans[first][0] : spans[last - 1][1]]
-        words = re.sub(" (a|the)$", "", words)
-    return _not_learned(text, f"for {words!r}")
+    )
+    asked, end = list[str](), 0
+    for start, size, words, read in found:
+        if start < end:  # a part of what is named already
+            continue
+        end = start - size - words.startswith(" ")  # words share the blank between them
+        if words.startswith(" "):  # as it is written, to the end of its last word
+            first, last = len(read[:start].split()), len(read[:end].split())
+            words = _ARTICLE.sub("", plain_text(text)[spans[first][0] : spans[last - 1][1]])
+        else:
+            words = re.match(f"{words}[ぁ-ん]{{0,2}}", read[start:])[0]  # type: ignore[index]
+        asked.append(repr(words))
+    return _not_learned(text, f"for {' and '.join(asked)}") if asked else None
 
 
 def _not_learned(text: str, asked: str) -> str:

@@ -25,6 +25,17 @@ export function removeDrift(features, columns, start = 0, stop = framesOf(featur
   }
 }
 
+/** Features so many times as fast: every so many-th frame, velocities by as much. */
+export function hastened(features, times) {
+  if (times === 1) return features;
+  const fast = new Float32Array(Math.ceil(framesOf(features) / times) * WIDTH);
+  for (let t = 0; t * WIDTH < fast.length; t++) {
+    fast.set(cut(features, t * times, t * times + 1), t * WIDTH);
+    for (const column of [FORWARD, LATERAL, YAW_RATE]) fast[t * WIDTH + ROOT + column] *= times;
+  }
+  return fast;
+}
+
 export function joinArrays(parts, Kind = Float32Array) {
   const whole = new Kind(parts.reduce((sum, part) => sum + part.length, 0));
   let at = 0;

@@ -175,7 +175,15 @@ function armsAtWork({ fps, heading, joint, seen, up, ground }) {
   const held = smooth(gap.map((value) => Number(value < 0.3)), third);
   const middle = left.map((p, t) => p.map((value, axis) => (value + right[t][axis]) / 2));
   const swept = sizes(sub(middle.slice(third), middle.slice(0, -third))).map((value, t) => (held[t + half] > 0.99 ? value : 0));
-  return { punches, claps: countPeaks(closed, -0.17, -0.24), slashes: countPeaks(swept, 0.4, 0.2), bows: countPeaks(smooth(tilt, 5), 35, 18) };
+  const bent = smooth(tilt, 5), atFace = up.map(() => false);
+  for (const wrist of [joint("l_wrist"), joint("r_wrist")]) {
+    const near = sizes(sub(wrist, joint("head"))), raised = sub(wrist, joint("spine3"));
+    up.forEach((axis, t) => { atFace[t] ||= near[t] < 0.45 && axis.reduce((sum, value, k) => sum + value * raised[t][k], 0) > 0; });
+  }
+  return {
+    punches, claps: countPeaks(closed, -0.17, -0.24), slashes: countPeaks(swept, 0.4, 0.2), bows: countPeaks(bent, 35, 18),
+    calls: countPeaks(bent.map((value, t) => (atFace[t] ? value : 0)), 40, 18),
+  };
 }
 
 function feet({ joint, seen }) {
@@ -238,7 +246,7 @@ export const ACTIONS = ofABody({
   spin: (m) => Math.abs(m.yaw) > 4.7 && within(m, 0.8),
   kick: (m) => Math.max(...m.kicks) >= 1,
   punch: (m) => Math.max(...m.punches) >= 1 && !travels(m, 0.25),
-  slash: (m) => m.slashes >= 1, raise: anyHand, bye: anyHand,
+  slash: (m) => m.slashes >= 1, call: (m) => m.calls >= 1, raise: anyHand, bye: anyHand,
   squat: (m) => m.squats >= 1, jump: (m) => m.jumps >= 1, clap: (m) => m.claps >= 1, bow: (m) => m.bows >= 1,
 });
 

@@ -1,19 +1,22 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { cut, decodeFeatures, FORWARD, framesOf, HEIGHT, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { cut, decodeFeatures, FORWARD, framesOf, hastened, HEIGHT, joinArrays, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
 import { postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+
+const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
+const CLAP_PACE = 2, TO_LAND = 1.3, HALF_STEP = 0.25, SETTLED = 0.1;
 
 const countOf = (words) => words.split(/\s+/u).filter(Boolean).length;
 
@@ -27,17 +30,26 @@ export class Director {
   /** What a text alone asks for, even where it seldom comes out. */
   reading(text) {
     if (!text) return { action: null, certainty: -Infinity, arms: false };
-    const { nearest: [action], certainty } = this.scope.check(text);
-    return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action) };
+    const { nearest: [action], certainty, known } = this.scope.check(text);
+    return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action), known };
   }
 
   /** Lines about sentences that the model hardly knows; null where all is well. */
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    let lines = texts.length === 1 ? [this.scope.warning(this.reader.whole(prompt, parts))] : []; // known without its measures, or with them
-    if (texts.length > 1 || !(isPlain(parts[0]) || lines[0] === null)) lines = texts.map((text) => this.scope.warning(text));
-    return texts.map((text, i) => this.unlearned(text) ?? lines[i]).find(Boolean) ?? null;
+    let lines = null;
+    if (texts.length === 1) { // known without its measures, or as the same with them
+      const said = this.reader.whole(prompt, parts), actions = [said, texts[0]].map((text) => this.nearest(text));
+      const same = actions[0] === actions[1] || (parts[0].degrees !== null && actions.every((action) => ROUND.includes(action)));
+      const line = this.scope.warning(said);
+      if (isPlain(parts[0]) || (line === null && same)) lines = [line];
+    }
+    lines ??= texts.map((text) => this.scope.warning(text));
+    const angled = new Set(parts.filter(({ degrees }) => degrees !== null).map(({ text }) => text)); // the angle says it
+    const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
+    const told = texts.map((text, i) => this.unlearned(text) ?? (sure(text) ? null : lines[i])).filter(Boolean);
+    return [...new Set(told)].join(" ") || null;
   }
 
   /** A line if a text asks for what is none of a model's actions, whatever else it asks for. */
@@ -48,14 +60,20 @@ export class Director {
     const found = this.settings.unlearned
       .filter(([others, words, loose]) => said[Number(loose)].includes(words) && !others.some((action) => known.has(action))
         && !names.some((name) => name.includes(words)) && !taught(words))
-      .map(([, words, loose]) => [countOf(said[Number(loose)].slice(0, said[Number(loose)].indexOf(words))), words]);
+      .map(([, words, loose]) => ({ start: said[Number(loose)].indexOf(words), words, read: said[Number(loose)] }))
+      .sort((a, b) => a.start - b.start || b.words.length - a.words.length);
     const line = (asked) => `“${text}” asks ${asked}, which this model has not learned.`;
     if (this.reader.turnsHead(text)) return line("the head alone to turn");
-    if (!found.length) return null;
-    const [first, words] = found.reduce((a, b) => (b[0] < a[0] || (b[0] === a[0] && b[1].length > a[1].length) ? b : a));
-    if (!words.startsWith(" ")) return line(`for “${words}”`);
-    const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]);
-    return line(`for “${plain(text).slice(spans[first][0], spans[first + countOf(words) - 1][1]).replace(/ (?:a|the)$/, "")}”`);
+    const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]), asked = [];
+    let end = 0;
+    for (const { start, words, read } of found) {
+      if (start < end) continue; // a part of what is named already
+      const whole = words.startsWith(" ");
+      end = start + words.length - Number(whole); // words share the blank between them
+      if (whole) asked.push(plain(text).slice(spans[countOf(read.slice(0, start))][0], spans[countOf(read.slice(0, end)) - 1][1]).replace(ARTICLE, ""));
+      else asked.push(words + read.slice(end).match(/^[ぁ-ん]{0,2}/u)[0]);
+    }
+    return asked.length ? line(`for ${asked.map((each) => `“${each}”`).join(" and ")}`) : null;
   }
 
   /**
@@ -128,7 +146,11 @@ export class Director {
       const once = parts.length > 1 && this.isSingle(part); // of several, each is done once
       stretches.push(await this.stretch(part, once ? Math.min(seconds, ONCE[1]) : seconds, seed));
     }
-    return this.performed(parts, stretches, prompt, seed, options);
+    const { passage, given } = stretches.at(-1), { text, steps, seconds: named } = parts.at(-1), action = this.nearest(text);
+    const feet = !given && named === null && STEPPING.includes(action) ? round(steps ?? 0) * (action === "side-step" ? 2 : 1) : 0;
+    if (feet) stretches[stretches.length - 1] = { passage: { ...passage, frames: passage.frames + round(TO_LAND * FPS) } };
+    const motion = await this.performed(parts, stretches, prompt, seed, options);
+    return feet ? untilLanded(motion, feet, stretches.at(-1).passage.frames, passage.frames) : motion;
   }
 
   /** What clauses became, one after the other. */
@@ -163,12 +185,16 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.degrees === null && part.metres === null)
         removeDrift(features, this.steady(part.text, parts.length === 1), starts[i], starts[i] + passages[i].frames);
+    const paces = parts.map((part) => this.pace(part)), lengths = passages.map(({ frames }, i) => Math.ceil(frames / paces[i]));
+    const spans = parts.map((_, i) => hastened(cut(features, starts[i], starts[i] + passages[i].frames), paces[i]));
+    if (Math.max(...paces) > 1) features = joinArrays(spans);
+    const shown = lengths.map((_, i) => lengths.slice(0, i).reduce((sum, frames) => sum + frames, 0));
     const motion = postProcess(features, this.settings.post, { text });
     let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
     for (const [i, { count, text }] of parts.entries())
       if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
-        const { frames } = passages[i], joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((frames * (k + 1)) / count));
-        rested = restToRest(rested, joins.map((at) => starts[i] + at));
+        const joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((lengths[i] * (k + 1)) / count));
+        rested = restToRest(rested, joins.map((at) => shown[i] + at));
       }
     return { ...rested, text };
   }
@@ -204,10 +230,12 @@ export class Director {
     if (exactly !== null) clause = { ...clause, seconds: exactly / FPS };
     const { text, count } = clause, afresh = this.beginsStanding(text);
     if (clause.steps !== null && clause.seconds === null) clause = { ...clause, seconds: await this.stepping(clause, seed) };
-    seconds = clause.seconds ?? seconds;
+    const pace = this.pace(clause);
+    seconds = (clause.seconds ?? seconds) * pace;
+    exactly &&= exactly * pace;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
     if (this.applauds(clause) && !(await this.turns(clause))) {
-      const claps = Math.max(1, round(seconds / CLAP)), frames = Math.max(1, round(seconds * FPS));
+      const claps = Math.max(1, round(seconds / CLAP)), frames = Math.max(1, round((seconds / pace) * FPS)) * pace;
       if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, frames);
       if (!clause.held) return { passage: { text: CLAPS, frames, afresh: this.beginsStanding(CLAPS), miss: this.miss(clause, frames) } };
     }
@@ -247,6 +275,12 @@ export class Director {
     if (this.nearest(text) !== "clap" || count > 1 || metres !== null) return false;
     const known = this.reading(CLAPS);
     return known.action === "clap" && known.certainty > 0 && !this.reader.saysNumber(text);
+  }
+
+  /** How many times as fast a clause is shown as the network makes it. */
+  pace(clause) {
+    const claps = this.nearest(clause.text) === "clap" && clause.metres === null && clause.degrees === null;
+    return claps && (clause.count > 1 || this.applauds(clause)) ? CLAP_PACE : 1;
   }
 
   /** What a clause asks for several times, each in a window of its own. */
@@ -423,6 +457,14 @@ export class Director {
     if (!free.length || others.length || this.does(first, framesOfMotion(motion, free[0], free.at(-1) + 1))) return null;
     return `“${text}”: what was made anew does not show “${this.nearest(first)}”, by how joints move; look at it, try a longer span, another seed, or a clip that stands.`;
   }
+}
+
+/** The motion as far as the frame in which a foot has landed so many times (src/shared/motion/postprocess/whole.py). */
+function untilLanded(motion, steps, last, otherwise) {
+  const start = motion.frames - last, lands = [], stands = (t, foot) => motion.contacts[(start + t) * 2 + foot] > 0.5;
+  for (let t = 1; t < last; t++) if (t >= HALF_STEP * motion.fps && [0, 1].some((foot) => stands(t, foot) && !stands(t - 1, foot))) lands.push(t);
+  if (lands.length >= steps) otherwise = Math.min(lands[steps - 1] + round(SETTLED * motion.fps), last);
+  return framesOfMotion(motion, 0, start + otherwise);
 }
 
 const framesOfMotion = (motion, start, stop) => ({

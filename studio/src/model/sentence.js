@@ -14,7 +14,7 @@ export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "med
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
 const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
-const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
+export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
@@ -246,7 +246,7 @@ export class SentenceReader {
           found = [left, text.slice(start)];
           break;
         }
-        if (bound && !this.isTime(text, start, right)) continue;
+        if (bound && !this.isTime(text, start, right, true)) continue;
         if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right, text.slice(start, stop));
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
@@ -266,10 +266,10 @@ export class SentenceReader {
   }
 
   /** Whether "before" or "after" says when; a noun behind it may be a place or a thing. */
-  isTime(text, start, right) {
+  isTime(text, start, right, sure = false) {
     if (!this.head.noun.test(text.slice(start))) return true;
-    const { action, certainty } = this.reading(this.trimmed(right.split(this.first.stop)[0]));
-    return action === null || certainty > SURE;
+    const { action, certainty, known = true } = this.reading(this.trimmed(right.split(this.first.stop)[0]));
+    return action === null || (certainty > SURE && (known || !sure));
   }
 
   subordinate(text) {

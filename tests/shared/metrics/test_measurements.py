@@ -74,3 +74,25 @@ def test_a_slash_is_both_hands_together_that_sweep_far() -> None:
     assert ACTIONS["slash"](measure(swordsman(degrees=120)))
     for other in (swordsman(degrees=20), swordsman(degrees=120, apart=True)):
         assert measure(other).slashes == 0
+
+
+def caller(*, degrees: float, elbow: float) -> Motion:
+    """Bends forward so far and comes up again, the arms ahead, the forearms turned in so far."""
+    frames = 90
+    q = np.zeros((frames, NUM_JOINTS, 4), np.float32)
+    q[..., 0] = 1
+    for letter, sign in (("l", -1), ("r", 1)):
+        for name, turn in (("shoulder", 80.0), ("elbow", elbow)):
+            half = math.radians(turn) / 2
+            q[:, JOINT_INDEX[f"{letter}_{name}"], 0] = math.cos(half)
+            q[:, JOINT_INDEX[f"{letter}_{name}"], 2] = sign * math.sin(half)
+    lean = np.radians(degrees) * np.sin(np.pi * np.arange(frames) / (frames - 1)) / 2
+    q[:, JOINT_INDEX["spine1"], 0], q[:, JOINT_INDEX["spine1"], 1] = np.cos(lean), np.sin(lean)
+    place = np.tile(np.float32([0, REST_PELVIS_HEIGHT, 0]), (frames, 1))
+    return Motion(quaternions=q, root_position=place, contacts=np.ones((frames, 2), np.float32))
+
+
+def test_who_calls_leans_forward_with_a_hand_at_the_face() -> None:
+    assert ACTIONS["call"](measure(caller(degrees=60, elbow=110)))
+    assert measure(caller(degrees=60, elbow=0)).calls == 0  # bows, the arms stretched
+    assert measure(caller(degrees=10, elbow=110)).calls == 0

@@ -579,9 +579,9 @@ KNOWN = scope_of("walk", "wave", "kick", "punch", "raise", "bow", "jump", "stand
         ("Elle marche en baillant", "'baillant'"),
         ("un homme s’allonge", "'s’allonge'"),
         ("Sie SCHÜTTELT den  Kopf", "'SCHÜTTELT den Kopf'"),
-        ("趴在地上匍匐前进", "'趴在地上'"),
+        ("趴在地上匍匐前进", "'趴在地上' and '匍匐前进'"),
         ("she walks and then blocks with her shield", "'blocks with'"),
-        ("balances on one leg while she nods", "'balances on'"),
+        ("balances on one leg while she nods", "'balances on' and 'nods'"),
         ("a guard turns his head to the left", "the head alone to turn"),
         ("İbrahim yawns and walks", "'yawns'"),  # whose small letter is two signs
     ],

@@ -152,6 +152,41 @@ def test_what_is_asked_for_often_or_held_keeps_its_time(
     assert motion.seconds - 4.0 == pytest.approx(seconds, abs=0.1)
 
 
+def test_all_that_is_not_known_is_named(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    (line,) = sentences.scope_warnings(["plays the violin, then lies down and juggles"])
+    assert line is not None and "'violin'" in line and "'lies down' and 'juggles'" in line
+
+
+def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    lines = sentences.scope_warnings(["aplaude cuatro veces", "aplaude cuatro veces muy contento"])
+    assert lines[0] is None and lines[1] is not None
+    turned = ["dreht sich um 180 Grad und rennt weg", "er dreht sich um 90 Grad"]
+    assert sentences.scope_warnings(turned) == [None, None]  # the angle says that it is a turn
+
+
+def test_claps_are_shown_twice_as_fast_as_they_are_made(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    (counted,) = sentences.generate(["claps three times"], seconds=4.0, seed=0)
+    assert counted.seconds < 4.6 and measure(counted).claps == 3
+    (free,) = sentences.generate(["a person claps"], seconds=4.0, seed=0)
+    assert free.seconds == 4.0 and measure(free).claps >= 3
+    timeline = Timeline((Passage("a person claps", 60),), timed=True)
+    assert sentences.timeline(timeline, Sampling(steps=2)).seconds == 2.0
+
+
+@pytest.mark.parametrize(
+    ("text", "steps"), [("takes three steps forward", 3), ("two steps back", 2)]
+)
+def test_steps_are_counted_and_end_on_a_foot(text: str, steps: int, starter: TextToMotion):
+    (motion,) = SentenceGenerator(starter).generate([text], seed=1)
+    stands = motion.contacts > 0.5
+    lands = np.flatnonzero((stands[1:] & ~stands[:-1]).any(1)) + 1
+    assert (lands >= 0.25 * motion.fps).sum() == steps
+    assert motion.num_frames - lands[-1] <= 4
+
+
 def test_a_measure_is_no_cause_for_a_warning(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     plain = sentences.scope_warnings(["a person walks forward"])

@@ -1,5 +1,7 @@
 """Smoothing, the velocity clamp, and the chain from features to a motion."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import torch
@@ -19,6 +21,7 @@ from src.shared.motion.postprocess.whole import (
     rest_to_rest,
     smooth_features,
     smoothing_weights,
+    until_landed,
 )
 from src.shared.motion.rotations import (
     quaternion_conjugate,
@@ -216,3 +219,21 @@ def test_arms_that_hang_are_left_alone() -> None:
 def test_what_is_too_short_for_both_fades_is_left_alone() -> None:
     short = waving(40)
     assert np.array_equal(rest_to_rest(short).quaternions, short.quaternions)
+
+
+def walking(*landings: int, frames: int = 60) -> Motion:
+    """Feet that land in turn in these frames, each lifted ten frames before."""
+    motion = some_motion(frames)
+    contacts = np.ones((frames, 2), np.float32)
+    for number, frame in enumerate(landings):
+        contacts[max(frame - 10, 0) : frame, number % 2] = 0
+    return replace(motion, contacts=contacts)
+
+
+def test_so_many_steps_end_where_the_last_foot_has_landed() -> None:
+    motion = walking(3, 15, 30, 45)  # the first one had begun before
+    assert until_landed(motion, 2, 60, 20).num_frames == 33
+    assert until_landed(motion, 3, 60, 20).num_frames == 48
+    assert until_landed(motion, 2, 40, 25).num_frames == 48  # of the last 40 frames
+    assert until_landed(motion, 5, 60, 20).num_frames == 20
+    assert until_landed(motion, 0, 60, 20) is motion
