@@ -2,14 +2,17 @@
 
 import ast
 import importlib
+import json
 import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.main import get_command
 
 from src.cli.tools import app
+from src.shared.motion.skeleton import canonical_skeleton
 from src.train.launch import STAGES
 
 ROOT = Path(__file__).parent.parent
@@ -120,3 +123,12 @@ def test_commands_in_the_docs_have_only_real_flags(page: Path) -> None:
         known = {f for p in command.params for f in [*p.opts, *p.secondary_opts, "--help"]}
         used = {w for w in shlex.split(rest.replace("…", ""), comments=True) if w.startswith("--")}
         assert used <= known, f"{page.name}: {name} {used - known}"
+
+
+def test_the_page_on_exports_gives_the_skeleton() -> None:
+    text = (ROOT / "docs" / "onnx.md").read_text(encoding="utf-8")
+    rows = json.loads(text.split("```json\n")[1].split("```")[0])
+    ours = canonical_skeleton()
+    assert [row[0] for row in rows] == list(ours.names)
+    assert [row[1] for row in rows] == list(ours.parents)
+    np.testing.assert_allclose([row[2] for row in rows], ours.offsets, atol=1e-6)

@@ -84,7 +84,7 @@ def guarded(command: Callable[Parameters, None]) -> Callable[Parameters, None]:
             )
             raise typer.Exit(1) from None
         except KeyboardInterrupt:
-            complain("interrupted: files already reported are whole")
+            complain("interrupted: files that are written are whole")
             raise typer.Exit(INTERRUPTED) from None
 
     return run

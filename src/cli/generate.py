@@ -1,7 +1,8 @@
 """`generate`: prompts or a song in, motion files out; four kinds, each checks, makes and writes."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from .console import (
     check_range,
     counted,
     flag_of,
+    note_replaced,
     of_fields,
     print_json,
     progress_bar,
@@ -36,6 +38,7 @@ from .generate_request import (
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
     from ..shared.model.generation.motion_generator import Progress
+    from ..shared.motion.motion import Motion
     from ..shared.pipelines.edit import Given
     from ..shared.pipelines.motion_generator import MotionGenerator
     from ..shared.pipelines.path import DrawnPath
@@ -43,6 +46,7 @@ if TYPE_CHECKING:
     from ..shared.pipelines.timeline import Timeline
 
 LONG_SONG = 150.0  # seconds
+GROUP = 8  # prompts
 STAGES = {"path": "frames of the path", "body": "frames of the body"}
 
 
@@ -89,7 +93,7 @@ def produce(request: Request) -> dict[str, Any]:
 
         if others := [flag for flag in request.given() if flag != "--path"]:
             raise UsageError(f"{others[0]} does not go with --audio; leave one out")
-        refuse_with("--audio", prompts=request.prompts)
+        refuse_with("--audio", prompts=request.prompts, resume=request.resume or None)
         check_figures(request)
         check_sound(song)
         return (song_path if request.path_alone else dance)(request, song)
@@ -100,7 +104,7 @@ def produce(request: Request) -> dict[str, Any]:
                 f"{flag_of(name)} is about a dance; name a song with --audio, or leave it out"
             )
     if given := request.given():
-        refuse_with(given[0], prompts=request.prompts)
+        refuse_with(given[0], prompts=request.prompts, resume=request.resume or None)
         return controlled(request)
     return prompted(request)
 
@@ -119,32 +123,63 @@ def prompted(request: Request) -> dict[str, Any]:
     _ = generator.text, generator.tower if several else None
     clock.lap("load")
     warnings = warn(generator.sentences.scope_warnings(prompts))
-    with progress_bar("motions") as progress:
-        found = generator.candidates(
-            prompts,
-            request.num_samples,
-            return_all=request.return_all,
-            seconds=lengths,
-            tags=tags,
-            sampling=request.sampling,
-            foot_lock=request.foot_lock,
-            progress=progress,
-        )
-    clock.lap("sample")
-    kept = request.kept
-    motions = [motion for result in found for motion in result.ranked()]
-    rows = files.write_motions(motions, kept, formats, request.out)
-    places = [int(place) for result in found for place in result.table.order[:kept]]
-    for at, (row, place, motion) in enumerate(zip(rows, places, motions, strict=True)):
-        warning = warnings[at // kept] or generator.sentences.missed(prompts[at // kept], motion)
-        row |= {"sample": place, "rank": at % kept + 1}
-        row |= {"seed": request.seed, "warning": warning}
-        row |= {"clauses": [each.said for each in generator.sentences.clauses(motion.text)]}
+    kept, number = request.kept, request.num_samples
+    places = files.motion_files(prompts, kept, formats, request.out)
+    whole = [all(path.exists() for path in each.values()) for each in places]
+    done = [request.resume and all(whole[at * kept :][:kept]) for at in range(len(prompts))]
+    groups = in_groups(prompts, done)
+    fresh = [each for group in groups for at in group for each in places[at * kept :][:kept]]
+    note_replaced([path for each in fresh for path in each.values()], request.out)
+    rows: list[dict[str, Any]] = [
+        {"prompt": prompts[at // kept], "files": files.named(each), "resumed": True}
+        for at, each in enumerate(places)
+    ]
+    motions: list[Motion] = []
+    judged: list[tuple[str, ScoreTable]] = []
+    for group in groups:
+        before, total = number * len(judged), number * sum(map(len, groups))
+        with progress_bar("motions") as progress:
+            found = generator.candidates(
+                [prompts[at] for at in group],
+                number,
+                return_all=request.return_all,
+                seconds=[lengths[at] for at in group],
+                tags=None if tags is None else [tags[at] for at in group],
+                sampling=request.sampling,
+                foot_lock=request.foot_lock,
+                progress=partial(_onward, progress, before, total),
+            )
+        clock.lap("sample")
+        for at, result in zip(group, found, strict=True):
+            own = result.ranked()
+            written = files.write_motions(own, places[at * kept :][:kept])
+            for rank, (row, motion) in enumerate(zip(written, own, strict=True)):
+                warning = warnings[at] or generator.sentences.missed(prompts[at], motion)
+                row |= {"sample": int(result.table.order[rank]), "rank": rank + 1}
+                row |= {"seed": request.seed, "warning": warning}
+                row |= {"clauses": [x.said for x in generator.sentences.clauses(motion.text)]}
+                rows[at * kept + rank] = row
+            motions += own
+            judged.append((prompts[at], result.table))
+        clock.lap("write")
     paged = "html" in formats and len(motions) > 1
     index = files.write_index(motions, request.out) if paged else None
     clock.lap("write")
-    judged = zip(prompts, (result.table for result in found), strict=True) if several else ()
-    return told_of_text(request, generator) | results(rows, clock, judged, index)
+    selection = judged if several else ()
+    return told_of_text(request, generator) | results(rows, clock, selection, index)
+
+
+def _onward(progress: "Progress", before: int, total: int, made: int, _: int) -> None:
+    progress(before + made, total)
+
+
+def in_groups(prompts: Sequence[str], done: Sequence[bool]) -> list[list[int]]:
+    """The numbers of the prompts still to be sampled, GROUP at once, and then written: what a stop
+    can cost. Equal prompts differ by their order in a group, and so are in one."""
+    left = [at for at, one in enumerate(done) if not one]
+    if len({*prompts}) < len(prompts):
+        return [[*range(len(prompts))]] if left else []
+    return [left[at : at + GROUP] for at in range(0, len(left), GROUP)]
 
 
 def controlled(request: Request) -> dict[str, Any]:
@@ -182,7 +217,9 @@ def controlled(request: Request) -> dict[str, Any]:
         text, tag = (each[0] if each else None for each in (texts, tags))
         made = generator.edit(given, text, tag=tag, **options)
     clock.lap("sample")
-    rows = files.write_motions([made.motion], 1, formats, request.out)
+    (place,) = files.motion_files([made.motion.text], 1, formats, request.out)
+    note_replaced(place.values(), request.out)
+    rows = files.write_motions([made.motion], [place])
     rows[0] |= {"seed": request.seed, "directions": request.given(), "errors": made.errors}
     rows[0] |= {"warning": next(filter(None, [*warnings, made.warning]), None)}
     clock.lap("write")

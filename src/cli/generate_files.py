@@ -100,16 +100,23 @@ def dance_stems(audio: Path, prompts: Sequence[str | None], kept: int) -> list[s
 # ---------------------------------------------------------------- files
 
 
+def motion_files(
+    prompts: Sequence[str], kept: int, formats: list[str], out: Path
+) -> list[dict[str, Path]]:
+    """Where motions will lie: the files of each by format, `kept` for a prompt."""
+    from ..shared.formats.registry import ending
+
+    names = stems([text for text in prompts for _ in range(kept)], kept)
+    return [{name: out / f"{stem}.{ending(name)}" for name in formats} for stem in names]
+
+
 def write_motions(
-    motions: "Sequence[Motion]", num_samples: int, formats: list[str], out: Path
+    motions: "Sequence[Motion]", files: Sequence[dict[str, Path]]
 ) -> list[dict[str, Any]]:
-    """Write every motion in every format; a row of facts and paths for each."""
-    from ..shared.formats.registry import ending, write_motion
+    """Write every motion into its files; a row of facts and paths for each."""
+    from ..shared.formats.registry import write_motion
 
     rows: list[dict[str, Any]] = []
-    names = stems([motion.text for motion in motions], num_samples)
-    files = [{name: out / f"{stem}.{ending(name)}" for name in formats} for stem in names]
-    note_replaced([path for paths in files for path in paths.values()], out)
     with progress_bar("motions written") as progress:
         for motion, paths in zip(motions, files, strict=True):
             for path in paths.values():
@@ -119,11 +126,16 @@ def write_motions(
                     "prompt": motion.text,
                     "frames": motion.num_frames,
                     "fps": motion.fps,
-                    "files": {name: str(path) for name, path in paths.items()},
+                    "files": named(paths),
                 }
             )
             progress(len(rows), len(motions))
     return rows
+
+
+def named(paths: dict[str, Path]) -> dict[str, str]:
+    """As JSON has them."""
+    return {name: str(path) for name, path in paths.items()}
 
 
 def write_index(motions: "Sequence[Motion]", out: Path) -> str:

@@ -126,6 +126,12 @@ class Request:
     return_all: Annotated[
         bool, typer.Option("--return-all", help="Write all candidates, the best one first.")
     ] = False
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume", help="Of several prompts leave out those whose files are in --out."
+        ),
+    ] = False
     judge: Annotated[
         str | None,
         typer.Option(

@@ -21,8 +21,8 @@ FLAGS = {
         "--audio --body --body-model --device --edit --end --figures --follow-path --foot-lock"
         " --format --from --guidance-scale --joints --json --judge --keep --loop --memory"
         " --meter --model --no-figures --no-foot-lock --num-samples --out --path"
-        " --post-processing --prompt --prompts --return-all --runtime --sampler --seconds --seed"
-        " --start --steps --style --tag --then --threads --timeline --to"
+        " --post-processing --prompt --prompts --resume --return-all --runtime --sampler"
+        " --seconds --seed --start --steps --style --tag --then --threads --timeline --to"
     ),
     "convert": (
         "--asf --format --fps --json --mapping --names --resume --root --scheduler --skeleton"

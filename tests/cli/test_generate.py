@@ -2,15 +2,18 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from src.cli.generate import GROUP, in_groups
 from src.cli.tools import app
 from src.shared.formats.arrays import read_npz
 from src.shared.io.files import write_json
 from src.shared.metrics.measurements import ACTIONS
+from src.shared.pipelines.motion_generator import MotionGenerator
 from tests.shared.model.conftest import tiny_generator
 
 PROMPTS = ("--prompt", "a person walks forward", "--prompt", "人が前に歩く")
@@ -125,3 +128,42 @@ def test_a_damaged_model_is_named(model: str, tmp_path: Path) -> None:
     weights.write_bytes(weights.read_bytes()[:-10])
     _, err = generate(*PROMPTS, "--model", str(tmp_path / "cut"), "--out", str(tmp_path), code=1)
     assert "model.safetensors" in err and "Traceback" not in err
+
+
+def test_a_stop_keeps_what_was_written_and_the_rest_can_follow(
+    model: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    listed, many = tmp_path / "many.txt", GROUP + 3
+    listed.write_text("\n".join(f"a person walks {number}" for number in range(many)))
+    asked = ["generate", "--prompts", str(listed), "--seconds", "0.5", "--model", model]
+    asked += ["--device", "cpu", "--format", "bvh", "--json", "--out"]
+    whole, parts = tmp_path / "whole", tmp_path / "parts"
+    assert runner.invoke(app, [*asked, str(whole)]).exit_code == 0
+
+    sampled, counts = MotionGenerator.candidates, list[int]()
+
+    def stopped(self: MotionGenerator, prompts: list[str], *rest: Any, **options: Any) -> Any:
+        if counts:
+            raise KeyboardInterrupt
+        counts.append(len(prompts))
+        return sampled(self, prompts, *rest, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(MotionGenerator, "candidates", stopped)
+        assert runner.invoke(app, [*asked, str(parts)]).exit_code == 130
+    assert counts == [GROUP] and len([*parts.iterdir()]) == GROUP
+    before = {path: path.stat().st_mtime_ns for path in parts.iterdir()}
+    result = runner.invoke(app, [*asked, str(parts), "--resume"])
+    rows = json.loads(result.stdout)["motions"]
+    assert [row.get("resumed", False) for row in rows] == [True] * GROUP + [False] * 3
+    assert all(path.stat().st_mtime_ns == time for path, time in before.items())
+    for path in whole.iterdir():
+        assert (parts / path.name).read_bytes() == path.read_bytes()
+    refused = runner.invoke(app, ["generate", "--resume", "--prompt", "a", "--then", "b"])
+    assert refused.exit_code == 2 and "--resume" in refused.stderr
+
+
+def test_equal_prompts_are_sampled_together() -> None:
+    assert in_groups(["a", "b"], [True, False]) == [[1]]
+    assert in_groups(["a", "b", "a"], [True, False, False]) == [[0, 1, 2]]
+    assert in_groups(["a", "a"], [True, True]) == []

@@ -2,14 +2,15 @@
 
 from pathlib import Path
 
-from src.cli.generate_files import FORMATS, write_motions
+from src.cli.generate_files import FORMATS, motion_files, write_motions
 from src.shared.formats.registry import EXPORTERS, format_of
 from tests.shared.formats.test_registry import standing
 
 
 def test_offered_formats_are_written_under_their_ending(tmp_path: Path) -> None:
     formats = [name for name in EXPORTERS if name not in ("mp4", "gif", "png", "html")]
-    (row,) = write_motions([standing()], 1, formats, tmp_path)
+    places = motion_files(["stands"], 1, formats, tmp_path)
+    (row,) = write_motions([standing()], places)
     assert list(row["files"]) == formats
     for name, path in row["files"].items():
         assert Path(path).exists()

@@ -10,7 +10,7 @@ Letters: N candidates, T frames.
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import cached_property
@@ -488,7 +488,7 @@ class MotionGenerator:
 
 
 def _texts(prompts: str | Sequence[str]) -> list[str]:
-    several = isinstance(prompts, Iterable) and not isinstance(prompts, str)
+    several = isinstance(prompts, Iterable) and not isinstance(prompts, str | Mapping)
     found: list[Any] = [*prompts] if several else [prompts]
     if not all(isinstance(each, str) for each in found):
         raise UsageError(f"prompts is {prompts!r}; give a sentence, or a list of sentences")

@@ -290,7 +290,7 @@ class SentenceGenerator:
             seen = measure(motion)
             found = float(wanted is not None and not wanted(seen))
             if found and wanted and len(features) > latest:
-                # one bad window is none of those that follow; cleaned up, as who drifts seems to fly
+                # one bad window is none of those that follow; cleaned up: who drifts seems to fly
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
             several = clause.count > 1 or (frames <= ONCE[1] * fps and self._is_single(clause))
