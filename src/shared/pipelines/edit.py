@@ -36,7 +36,7 @@ from ..motion.features import (
 from ..motion.motion import Motion, resample_motion
 from ..motion.postprocess.stitching import place_of
 from ..motion.rotations import turn_about_y
-from ..motion.skeleton import JOINT_INDEX, LIMBS
+from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 from ..motion.trajectory import FPS
 from ..tensors import Tensor, torch
 from .stream import OVERLAP, Miss, Passage, stream_features
@@ -47,6 +47,7 @@ FULLEST = 0.95  # of the way to the pose that is furthest from the first one: th
 LONGEST = 7200.0  # seconds of a motion that clips are part of
 HARDLY = 0.08  # metres that a joint moves at most where a body holds still
 SWAY_SECONDS = 4.0  # forth and back
+EASE = 20  # frames, in which joints leave what they did and come back to it
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
 GROUPS: dict[str, tuple[str, ...]] = LIMBS | {
     "arms": LIMBS["left-arm"] + LIMBS["right-arm"],
@@ -368,7 +369,26 @@ def fill_free(
     )
     features = constraint.values[:, :rows].clone()
     features[start:stop] = torch.cat(list(pieces))
+    if constraint.shown is not None and not constraint.shown.any():
+        _ease(features, constraint, int(free[0]), int(free[-1]) + 1)
     return features
+
+
+def _ease(features: Tensor, constraint: Constraint, start: int, stop: int) -> None:
+    """In place: joints that were made anew in frames [start, stop) leave the pose that they had,
+    which is in `constraint.values`, and come back to it, within EASE frames; a network that does
+    not see what they did begins where it likes."""
+    frames = min(EASE, (stop - start) // 3)
+    way = np.arange(1, frames + 1) / (frames + 1)
+    share = np.ones((stop - start, 1, 1), np.float32)
+    if start > 0:
+        share[:frames, 0, 0] = way * way * (3 - 2 * way)
+    if frames and stop < len(features):
+        share[-frames:, 0, 0] = (way * way * (3 - 2 * way))[::-1]
+    made, had = (each[start:stop, :NUM_JOINTS] for each in (features, constraint.values))
+    new = features.new_tensor(share)
+    known = constraint.known[start:stop, :NUM_JOINTS]
+    features[start:stop, :NUM_JOINTS] = torch.where(known, made, made * new + had * (1 - new))
 
 
 def bend_back(features: Tensor, given: Given, *, fps: float) -> Constraint:

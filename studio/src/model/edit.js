@@ -10,6 +10,7 @@ import { FPS, GROUPS, INDEX, JOINTS, pose } from "../body/skeleton.js";
 import { freeConstraint, OVERLAP, streamFeatures, windowOf } from "./stream.js";
 
 export const NO_TEXT = "a person moves";
+const EASE = 20; // frames, in which joints leave what they did and come back to it
 
 export const chosenJoints = (names) => new Set(names.flatMap((name) => GROUPS[name] ?? (name in INDEX ? [name] : [])));
 
@@ -98,7 +99,20 @@ export async function fillFree(sampler, text, constraint, seed, options = {}) {
     ...rest,
     constraint: windowOf(constraint, start, stop),
   });
-  return joinArrays([cut(constraint.values, 0, start), made, cut(constraint.values, stop, frames)]);
+  const features = joinArrays([cut(constraint.values, 0, start), made, cut(constraint.values, stop, frames)]);
+  if (constraint.shown && !constraint.shown.includes(1)) ease(features, constraint, free[0], free.at(-1) + 1);
+  return features;
+}
+
+/** Joints that were made anew leave the pose that they had, and come back to it, within EASE frames. */
+function ease(features, { values, known }, start, stop) {
+  const frames = Math.min(EASE, Math.floor((stop - start) / 3)), way = (k) => (k / (frames + 1)) ** 2 * (3 - (2 * k) / (frames + 1));
+  for (let t = start; t < stop; t++) {
+    let share = 1;
+    if (start > 0 && t - start < frames) share = way(t - start + 1);
+    if (stop < framesOf(features) && stop - t <= frames) share = way(stop - t);
+    for (let at = t * WIDTH; share < 1 && at < t * WIDTH + ROOT; at++) if (!known[at]) features[at] = features[at] * share + values[at] * (1 - share);
+  }
 }
 
 /** A path through the free frames that leads to the place at their end. */

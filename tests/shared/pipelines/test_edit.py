@@ -264,3 +264,16 @@ def test_times_that_are_none_are_refused_and_one_joint_may_stand_alone(clip: Mot
             wrong()
     one, listed = (edit_clip(clip, 0, 1, names) for names in ("head", ["head"]))
     assert torch.equal(one.constraint.known, listed.constraint.known)
+
+
+def test_joints_leave_what_they_did_and_come_back_without_a_jerk(
+    generator: TextToMotion, clip: Motion
+) -> None:
+    first, last = 10, clip.num_frames - 10
+    given = edit_clip(clip, first / 30, last / 30, ["right-arm"])
+    made = edited(generator, "a person waves", given, Sampling(steps=2)).motion
+    apart = angles(made, clip)[:, JOINT_INDEX["r_elbow"]]
+    most = apart[first:last].max()
+    assert most > 0.3  # an untrained network does anything
+    assert apart[:first].max() < 1e-3 and apart[last:].max() < 1e-3  # what is kept
+    assert apart[first] < 0.3 * most and apart[last - 1] < 0.3 * most
