@@ -221,7 +221,7 @@ def controlled(request: Request) -> dict[str, Any]:
     note_replaced(place.values(), request.out)
     rows = files.write_motions([made.motion], [place])
     rows[0] |= {"seed": request.seed, "directions": request.given(), "errors": made.errors}
-    rows[0] |= {"warning": next(filter(None, [*warnings, made.warning]), None)}
+    rows[0] |= {"warning": "; ".join(filter(None, [*warnings, made.warning])) or None}
     clock.lap("write")
     return told_of_text(request, generator) | results(rows, clock)
 

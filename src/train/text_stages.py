@@ -12,14 +12,14 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
 import torch
-from safetensors import safe_open
+from safetensors import SafetensorError, safe_open
 from safetensors.torch import load_file, save_file
 from torch import Tensor
 
@@ -455,19 +455,18 @@ def caption_means(
 
 
 def taught_once(
-    file: Path, made_of: Sequence[object], like: TextTower, teach: Callable[[], TextTower]
+    folder: Path, made_of: Sequence[object], like: TextTower, teach: Callable[[], TextTower]
 ) -> TextTower:
-    """What `teach` makes of a tower of token pairs: read from the file if it holds what was made of
-    the same plain data, else made and written there.
+    """What `teach` makes of a tower of token pairs: read from the folder if it holds what was made
+    of the same plain data, else made and written there, beside what was made of other data.
 
     Raises:
         UserError: the file cannot be written.
     """
-    key = {"made of": hashlib.sha256(json.dumps(made_of).encode()).hexdigest()}
+    key = hashlib.sha256(json.dumps(made_of).encode()).hexdigest()
+    file = folder / f"taught-tower-{key[:12]}.safetensors"
     if file.is_file():
-        with safe_open(file, "pt") as stored:
-            known = stored.metadata() == key
-        if known:
+        with suppress(SafetensorError, OSError):  # a damaged one is made anew
             state = load_file(file)
             sizes = {
                 "text_pairs": len(state["encoder.keys"]),
@@ -477,9 +476,10 @@ def taught_once(
             tower = TextTower(like.config.model_copy(update=sizes), like.embed_dim)
             tower.load_state_dict(state)
             return tower.freeze()
+        announce(f"{file} is damaged")
     tower = teach()
     with atomic_write(file) as temporary:
-        save_file(tower.state_dict(), temporary, metadata=key)
+        save_file(tower.state_dict(), temporary)
     return tower
 
 

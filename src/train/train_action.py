@@ -65,7 +65,6 @@ from .train_generation import (
     spread_timesteps,
 )
 
-TOWER_FILE = "taught-tower.safetensors"  # in the output folder: a resumed run reads it
 KEPT = 0.15  # of where the tower sent new captions, which is near everything that it knew
 LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
@@ -196,7 +195,7 @@ class ActionTask(Task):
             )
 
         made_of = [tower_hash(before), captions, known, outside, steps, seed]
-        tower = taught_once(Path(self.config.output) / TOWER_FILE, made_of, before, taught)
+        tower = taught_once(Path(self.config.output), made_of, before, taught)
         return tower, dict(zip(groups, places, strict=True))
 
     def _known_tower(self) -> tuple[TextTower, dict[str, Tensor]]:

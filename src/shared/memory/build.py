@@ -130,7 +130,9 @@ class Source:
         if not self.records:
             splits = ", ".join(sorted({record.split for record in everything}))
             if not splits:
-                raise UsageError(f"{root} holds no phrases; name a folder of `prepare-audio`")
+                raise UsageError(
+                    f"{root} is missing or holds no phrases; name a folder of `prepare-audio`"
+                )
             raise UserError(f"{root} has no phrases of split {split!r}; there are: {splits}")
         bare = [record.id for record in self.records if record.body is None]
         if bare:

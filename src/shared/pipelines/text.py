@@ -230,9 +230,8 @@ class SentenceGenerator:
         if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
             lines = self.generator.scope_warnings([said := self.whole(prompt)], again=again)
             if not parts[0].plain:
-                actions = {self._nearest(said), self._nearest(texts[0])}
-                turns = parts[0].degrees is not None and actions <= ROUND
-                apart = lines != [None] or not (turns or len(actions) == 1)
+                same = self._nearest(said) == self._nearest(texts[0])
+                apart = lines != [None] or not (same or parts[0].degrees is not None)
         if apart:
             lines = self.generator.scope_warnings(texts, again=again)
         angled = {part.text for part in parts if part.degrees is not None}  # which says it
@@ -281,12 +280,14 @@ class SentenceGenerator:
         """How far a passage of so many frames is from showing its clause and ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.scope
         action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
-        rests = scope is not None and action in scope.gestures
+        pace, rests = self._pace(clause), scope is not None and action in scope.gestures
         if action is None or frames < LEAST * fps or not (rests or wanted):
             return None
 
         def miss(features: Tensor) -> float:
             motion = decode_features(features, fps=fps)
+            if pace > 1:  # smoothed, hands may not meet
+                motion = self.generator.post_processor(hastened(features, pace), None)
             seen = measure(motion)
             found = float(wanted is not None and not wanted(seen))
             if found and wanted and len(features) > latest:
@@ -296,8 +297,7 @@ class SentenceGenerator:
             several = clause.count > 1 or (frames <= ONCE[1] * fps and self._is_single(clause))
             if several and (count := repetitions(action, seen, side)) is not None:
                 found = abs(count - round(clause.count * len(features) / frames))
-            uneasy = rests and len(features) >= frames and not ends_at_rest(motion)
-            return found + UNEASY * uneasy
+            return found + UNEASY * (rests and len(features) >= frames and not ends_at_rest(motion))
 
         return miss
 
@@ -381,7 +381,7 @@ class SentenceGenerator:
         free = given is None and parts[-1].seconds is None and action in STEPPING
         steps = round(free * (parts[-1].steps or 0)) * (1 + (action == "side-step"))  # both feet
         if steps:
-            more = round(TO_LAND * self.card.fps)
+            more = round(TO_LAND * self.card.fps + 0.15 * passage.frames)
             stretches[-1] = replace(passage, frames=passage.frames + more), None
         motion = self._motion(parts, stretches, text, sampling, lock)
         return until_landed(motion, steps, stretches[-1][0].frames, passage.frames)

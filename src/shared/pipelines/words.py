@@ -45,6 +45,9 @@ _STOPS = (
     r"|(?<=\s)[-/+&|](?=\s)|(?<!\S)\d[.)](?=\s))"
 )
 _ARROWS = r"\s*(?:[-=]*>+|[→➜➔⇒▶»])"
+_TAIL = re.compile(
+    "[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}"
+)  # of a verb
 _ARTICLE = re.compile(" (a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$")
 _ONES = "一二三四五六七八九"
 _TENS = f"(?:[{_ONES}]十|十(?=[{_ONES}]))[{_ONES}]?"  # 十 alone is a word of its own
@@ -143,8 +146,7 @@ class Words:
         idioms = {said: plain for table in tables for plain, many in table.get("idioms", {}).items()
                   for said in many}  # fmt: skip
         self.idiom = Rare(_any(idioms), [*idioms])
-        plainly = {said.rpartition("|")[2].partition("/")[0]: idioms[said] for said in idioms}
-        self.plainly = {bare(said): plain for said, plain in plainly.items()}
+        self.plainly = {bare(re.sub(r"^.*\||/.*$|\$$", "", said)): idioms[said] for said in idioms}
         nouns = rf"{_any(all_of('prepositions'))}\s*{_any(all_of('own'))}"
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
@@ -475,10 +477,11 @@ def unlearned_words() -> list[tuple[list[str], str, bool]]:
 
 def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
     """A line if a text asks for what is none of a model's actions, whatever else it asks for."""
-    if turns_head(text):
-        return _not_learned(text, "the head alone to turn")
-    if scope is None:
-        return None
+    asked = "the head alone to turn" if turns_head(text) else scope and _others(text, scope)
+    return f"prompt {text!r} asks {asked}, which this model has not learned" if asked else None
+
+
+def _others(text: str, scope: OutOfDomainDetector) -> str:
     spans = [word.span() for word in WORD.finditer(plain_text(text))]
     said = [_between_blanks(text, loose=loose) for loose in (False, True)]
     names = [_between_blanks(name, loose=False) for name in scope.actions]  # some are captions
@@ -499,13 +502,9 @@ def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
             first, last = len(read[:start].split()), len(read[:end].split())
             words = _ARTICLE.sub("", plain_text(text)[spans[first][0] : spans[last - 1][1]])
         else:
-            words = re.match(f"{words}[ぁ-ん]{{0,2}}", read[start:])[0]  # type: ignore[index]
+            words += _TAIL.match(read[start + len(words) :])[0]  # type: ignore[index]
         asked.append(repr(words))
-    return _not_learned(text, f"for {' and '.join(asked)}") if asked else None
-
-
-def _not_learned(text: str, asked: str) -> str:
-    return f"prompt {text!r} asks {asked}, which this model has not learned"
+    return f"for {' and '.join(asked)}" if asked else ""
 
 
 def _between_blanks(text: str, *, loose: bool) -> str:

@@ -16,7 +16,8 @@ const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORN
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
-const CLAP_PACE = 2, TO_LAND = 1.3, HALF_STEP = 0.25, SETTLED = 0.1;
+const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
+const CLAP_PACE = 2, TO_LAND = 1.3, SETTLED = 0.1;
 
 const countOf = (words) => words.split(/\s+/u).filter(Boolean).length;
 
@@ -40,8 +41,8 @@ export class Director {
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
     let lines = null;
     if (texts.length === 1) { // known without its measures, or as the same with them
-      const said = this.reader.whole(prompt, parts), actions = [said, texts[0]].map((text) => this.nearest(text));
-      const same = actions[0] === actions[1] || (parts[0].degrees !== null && actions.every((action) => ROUND.includes(action)));
+      const said = this.reader.whole(prompt, parts);
+      const same = this.nearest(said) === this.nearest(texts[0]) || parts[0].degrees !== null;
       const line = this.scope.warning(said);
       if (isPlain(parts[0]) || (line === null && same)) lines = [line];
     }
@@ -71,7 +72,7 @@ export class Director {
       const whole = words.startsWith(" ");
       end = start + words.length - Number(whole); // words share the blank between them
       if (whole) asked.push(plain(text).slice(spans[countOf(read.slice(0, start))][0], spans[countOf(read.slice(0, end)) - 1][1]).replace(ARTICLE, ""));
-      else asked.push(words + read.slice(end).match(/^[ぁ-ん]{0,2}/u)[0]);
+      else asked.push(words + read.slice(end).match(TAIL)[0]);
     }
     return asked.length ? line(`for ${asked.map((each) => `“${each}”`).join(" and ")}`) : null;
   }
@@ -148,7 +149,7 @@ export class Director {
     }
     const { passage, given } = stretches.at(-1), { text, steps, seconds: named } = parts.at(-1), action = this.nearest(text);
     const feet = !given && named === null && STEPPING.includes(action) ? round(steps ?? 0) * (action === "side-step" ? 2 : 1) : 0;
-    if (feet) stretches[stretches.length - 1] = { passage: { ...passage, frames: passage.frames + round(TO_LAND * FPS) } };
+    if (feet) stretches[stretches.length - 1] = { passage: { ...passage, frames: passage.frames + round(TO_LAND * FPS + 0.15 * passage.frames) } };
     const motion = await this.performed(parts, stretches, prompt, seed, options);
     return feet ? untilLanded(motion, feet, stretches.at(-1).passage.frames, passage.frames) : motion;
   }
@@ -248,13 +249,13 @@ export class Director {
     if (clause.metres !== null) {
       const gait = await naturalGait(this.sampler, text, seed);
       const last = clause.seconds === null ? null : Math.max(clause.seconds * FPS - 1, 1) / FPS;
-      const pace = (seconds) => timePath([[0, 0], [0, clause.metres]], { ...gait, seconds });
+      const timed = (seconds) => timePath([[0, 0], [0, clause.metres]], { ...gait, seconds });
       let path;
       try {
-        path = pace(last);
+        path = timed(last);
       } catch (error) {
         if (exactly !== null) throw error;
-        path = pace(null); // nobody goes so fast: it takes its own time
+        path = timed(null); // nobody goes so fast: it takes its own time
       }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
@@ -389,10 +390,11 @@ export class Director {
   miss(clause, frames) {
     const wanted = this.wanted(clause.text), action = this.nearest(clause.text), side = this.reader.sideOf(clause.text);
     if (action === null || frames < LEAST * FPS) return null;
-    const rests = this.scope.meta.gestures.includes(action), latest = this.window();
+    const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = this.pace(clause);
     if (wanted === null && !rests) return null;
     return (features) => {
-      const motion = decodeFeatures(features), seen = measure(motion), made = framesOf(features);
+      const motion = pace > 1 ? postProcess(hastened(features, pace), this.settings.post, {}) : decodeFeatures(features); // smoothed, hands may not meet
+      const seen = measure(motion), made = framesOf(features);
       const count = clause.count > 1 || (frames <= ONCE[1] * FPS && this.isSingle(clause)) ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));
       if (found && made > latest) // one bad window is none of those that follow, and feet are cleaned up yet
@@ -462,7 +464,7 @@ export class Director {
 /** The motion as far as the frame in which a foot has landed so many times (src/shared/motion/postprocess/whole.py). */
 function untilLanded(motion, steps, last, otherwise) {
   const start = motion.frames - last, lands = [], stands = (t, foot) => motion.contacts[(start + t) * 2 + foot] > 0.5;
-  for (let t = 1; t < last; t++) if (t >= HALF_STEP * motion.fps && [0, 1].some((foot) => stands(t, foot) && !stands(t - 1, foot))) lands.push(t);
+  for (let t = 1; t < last; t++) if (t >= (0.5 * otherwise) / steps && [0, 1].some((foot) => stands(t, foot) && !stands(t - 1, foot))) lands.push(t);
   if (lands.length >= steps) otherwise = Math.min(lands[steps - 1] + round(SETTLED * motion.fps), last);
   return framesOfMotion(motion, 0, start + otherwise);
 }

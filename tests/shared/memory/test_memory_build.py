@@ -190,7 +190,9 @@ def test_a_folder_without_bodies_says_what_to_do(tmp_path: Path) -> None:
 def test_other_folders_and_splits(pairs: Path, tmp_path: Path) -> None:
     with pytest.raises(UserError, match="no phrases of split 'val'; there are: test, train"):
         build_memory(pairs, LinearSpace(), tmp_path, split="val")
-    with pytest.raises(UsageError, match="holds no phrases; name a folder of `prepare-audio`"):
+    with pytest.raises(
+        UsageError, match="is missing or holds no phrases; name a folder of `prepare-audio`"
+    ):
         build_memory(tmp_path, LinearSpace(), tmp_path / "memory")
     with pytest.raises(UserError, match="long enough"):
         build_memory(pairs, LinearSpace(), tmp_path, config=MemoryConfig(min_frames=500))

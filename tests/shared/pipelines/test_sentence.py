@@ -20,6 +20,7 @@ from src.shared.pipelines.words import (
     goes_round,
     plain_text,
     side_of,
+    tidied,
     unlearned,
 )
 
@@ -623,3 +624,22 @@ def test_what_is_known_is_hardly_ever_told() -> None:
 def test_any_text_can_be_asked(text: str) -> None:
     line = unlearned(text, scope_of("walk"))
     assert line is None or line.endswith("which this model has not learned")
+
+
+@pytest.mark.parametrize("language", ["en", "es", "fr", "de", "ja", "zh"])
+def test_every_idiom_is_put_plainly(language: str) -> None:
+    table = load_yaml(packaged_config("measures.yaml"))[language]
+    for plain, many in table["idioms"].items():
+        for said in many:
+            ahead, _, behind = said.rpartition("|")
+            words = behind.partition("/")[0].removesuffix("$")
+            found = tidied(words if language in ("ja", "zh") or ahead else f"she bows {words}")
+            assert isinstance(found, str), (plain, said)
+
+
+def test_what_lands_is_no_second_action_and_what_stays_down_is() -> None:
+    assert tidied("he jumps and lands in a squat") == "he jumps "
+    assert "lands in a squat" in tidied("he jumps and lands in a squat and stays down")
+    assert tidied("waves and leaves") == "waves and walks away"
+    assert tidied("saluda y se va.").startswith("saluda y camina")
+    assert "离开" in tidied("他不想离开")

@@ -227,23 +227,24 @@ def rest_to_rest(
     return replace(motion, quaternions=signed)
 
 
-HALF_STEP, SETTLED = 0.25, 0.1  # seconds: what lands sooner is no step; of a foot that has landed
+SETTLED = 0.1  # seconds of a foot that has landed
 
 
 def until_landed(motion: Motion, steps: int, last: int, otherwise: int) -> Motion:
     """The motion as far as the frame in which a foot has landed so many times; 0 = all of it.
 
     Args:
-        steps: landings of either foot; one that was in the air at first has begun no step.
+        steps: landings of either foot; none before half a step's time, which had begun before.
         last: frames at the end, in which they are counted.
-        otherwise: how many of these are left where there are fewer landings.
+        otherwise: how many of these so many steps take, by their pace; what is left where there
+            are fewer landings.
     """
     if not steps:
         return motion
     start = motion.num_frames - last
     stands = motion.contacts[start:] > 0.5  # T 2
     lands = np.flatnonzero((stands[1:] & ~stands[:-1]).any(1)) + 1
-    lands = lands[lands >= HALF_STEP * motion.fps]
+    lands = lands[lands >= 0.5 * otherwise / steps]
     if len(lands) >= steps:
         otherwise = min(int(lands[steps - 1]) + round(SETTLED * motion.fps), last)
     return motion.frames(0, start + otherwise)
