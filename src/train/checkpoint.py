@@ -195,12 +195,13 @@ def refuse_to_overwrite(output: Path, *, resume: bool) -> None:
         )
 
 
-def require_same_run(checkpoint: Checkpoint, identity: dict[str, Any]) -> None:
-    """Raises UsageError naming the first setting in which the checkpoint differs."""
-    before, identity = (
-        _with_global_batch(checkpoint.state["identity"]),
-        _with_global_batch(identity),
-    )
+def require_same_run(
+    checkpoint: Checkpoint, identity: dict[str, Any], before: dict[str, Any] | None = None
+) -> None:
+    """Raises UsageError naming the first setting in which the checkpoint differs; `before`: what it
+    is held against, its identity by default."""
+    before = checkpoint.state["identity"] if before is None else before
+    before, identity = _with_global_batch(before), _with_global_batch(identity)
     for key in sorted({*before, *identity}):
         if before.get(key) != identity.get(key):
             if not {key} <= before.keys() & identity.keys():

@@ -205,9 +205,10 @@ class Trainer(Generic[ConfigT]):
         announce(f"computing on {compute}; {threads} CPU threads; {processes} process(es)")
         announce(f"writing to {self.output}")
         self._last = latest_checkpoint(self.output / "checkpoints")
-        if self._last is not None:  # settings that differ are told before what the task prepares
-            ours = run_identity(config, {}, processes)
-            require_same_run(self._last, {**self._last.state["identity"], **ours})
+        self._settings = run_identity(config, {}, processes)
+        if self._last is not None and (before := self._last.state.get("settings")):
+            # told before what the task prepares; of what the task calls so too it tells itself
+            require_same_run(self._last, self._settings, before)
         with self.accelerator.main_process_first():
             torch.manual_seed(mix_seed("weights", config.seed))
             self.task = build(config)
@@ -418,6 +419,7 @@ class Trainer(Generic[ConfigT]):
         optimizer = optimizer_tensors(self.optimizer.optimizer)
         if self.accelerator.is_main_process:
             state: dict[str, Any] = {"step": step, "identity": self._identity()}
+            state["settings"] = self._settings
             state["sums"] = list(sums.items())  # in their order, which JSON objects here lose
             if self.accelerator.scaler is not None:
                 state["scaler"] = self.accelerator.scaler.state_dict()

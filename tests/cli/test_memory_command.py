@@ -175,7 +175,7 @@ def test_silence_is_asked_every_two_seconds(world: Path, tmp_path: Path) -> None
             1,
             "no phrases",
         ),
-        (["build", "nowhere", "--space", "SPACE0", "--out", "OUT"], 1, "no phrases"),
+        (["build", "nowhere", "--space", "SPACE0", "--out", "OUT"], 2, "no phrases"),
         (["build", "PAIRS", "--space", "SPACE0", "--bars", "0", "--out", "OUT"], 2, "bars"),
     ],
 )
