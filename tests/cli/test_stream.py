@@ -39,11 +39,14 @@ def test_sentences_from_a_pipe() -> None:
 def test_it_can_be_stopped_while_it_waits_for_a_line() -> None:
     """A thread that waits in Python's buffer of stdin aborted one in six of interpreters."""
     command = [sys.executable, "-m", "src.cli.tools", "stream", "--steps", "2"]
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    heard, line = os.pipe()  # `communicate` would close a pipe of its own, and end the stream by 0
+    pipes = {"stdin": heard, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(command, cwd=ROOT, **pipes) as process:  # type: ignore[call-overload]
         assert process.stdout.readline().startswith(b"{")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
+    for end in (heard, line):
+        os.close(end)
     assert process.returncode == 130 and b"Fatal" not in errors
 
 
