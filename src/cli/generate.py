@@ -38,7 +38,6 @@ from .generate_request import (
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
     from ..shared.model.generation.motion_generator import Progress
-    from ..shared.motion.motion import Motion
     from ..shared.pipelines.edit import Given
     from ..shared.pipelines.motion_generator import MotionGenerator
     from ..shared.pipelines.path import DrawnPath
@@ -134,7 +133,8 @@ def prompted(request: Request) -> dict[str, Any]:
         {"prompt": prompts[at // kept], "files": files.named(each), "resumed": True}
         for at, each in enumerate(places)
     ]
-    motions: list[Motion] = []
+    paged = "html" in formats and len(places) > 1
+    motions = files.read_back(places, [paged and any(done) and one for one in whole])
     judged: list[tuple[str, ScoreTable]] = []
     for group in groups:
         before, total = number * len(judged), number * sum(map(len, groups))
@@ -158,12 +158,12 @@ def prompted(request: Request) -> dict[str, Any]:
                 row |= {"sample": int(result.table.order[rank]), "rank": rank + 1}
                 row |= {"seed": request.seed, "warning": warning}
                 row |= {"clauses": [x.said for x in generator.sentences.clauses(motion.text)]}
-                rows[at * kept + rank] = row
-            motions += own
+                rows[at * kept + rank], motions[at * kept + rank] = row, motion
             judged.append((prompts[at], result.table))
         clock.lap("write")
-    paged = "html" in formats and len(motions) > 1
-    index = files.write_index(motions, request.out) if paged else None
+    shown = [motion for motion in motions if motion is not None]
+    paged &= bool(groups) and len(shown) == len(places)
+    index = files.write_index(shown, request.out) if paged else None
     clock.lap("write")
     selection = judged if several else ()
     return told_of_text(request, generator) | results(rows, clock, selection, index)

@@ -138,6 +138,19 @@ def named(paths: dict[str, Path]) -> dict[str, str]:
     return {name: str(path) for name, path in paths.items()}
 
 
+def read_back(places: Sequence[dict[str, Path]], whole: Sequence[bool]) -> "list[Motion | None]":
+    """The motions whose files are there, for the page that shows all; None for the others, and for
+    those without an .npz.
+
+    Raises:
+        UserError: a file is damaged.
+    """
+    from ..shared.formats.arrays import read_npz
+
+    there = zip(places, whole, strict=True)
+    return [read_npz(each["npz"]) if one and "npz" in each else None for each, one in there]
+
+
 def write_index(motions: "Sequence[Motion]", out: Path) -> str:
     """One page with all motions side by side; returns its path."""
     from ..shared.formats.registry import write_preview

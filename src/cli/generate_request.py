@@ -129,7 +129,8 @@ class Request:
     resume: Annotated[
         bool,
         typer.Option(
-            "--resume", help="Of several prompts leave out those whose files are in --out."
+            "--resume",
+            help="Of several prompts leave out those whose files are in --out, whatever the seed.",
         ),
     ] = False
     judge: Annotated[

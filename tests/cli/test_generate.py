@@ -159,6 +159,14 @@ def test_a_stop_keeps_what_was_written_and_the_rest_can_follow(
     assert all(path.stat().st_mtime_ns == time for path, time in before.items())
     for path in whole.iterdir():
         assert (parts / path.name).read_bytes() == path.read_bytes()
+    paged = [*asked[:-3], "npz,html", "--json", "--out", str(parts)]
+    assert json.loads(runner.invoke(app, paged).stdout)["index"]
+    (parts / "index.html").unlink()
+    next(parts.glob("01-*.npz")).unlink()
+    again = json.loads(runner.invoke(app, [*paged, "--resume"]).stdout)
+    assert [row.get("resumed", False) for row in again["motions"]] == [False] + [True] * (many - 1)
+    page = (parts / "index.html").read_text(encoding="utf-8")
+    assert all(f"a person walks {number}" in page for number in range(many))
     refused = runner.invoke(app, ["generate", "--resume", "--prompt", "a", "--then", "b"])
     assert refused.exit_code == 2 and "--resume" in refused.stderr
 

@@ -446,7 +446,7 @@ def _parted(text: str, read: Read) -> Clause | None:
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]
     said = bool(marks or words.throughout.search(text))
-    each, poses = names_both(text), words.posed.finditer(text)
+    each = names_both(text)
     for cuts, sure, enough in (
         (marks, SURE_AT_MARK, SURE_AT_MARK),
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
@@ -464,7 +464,7 @@ def _parted(text: str, read: Read) -> Clause | None:
         ]
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
-    for pose in poses:
+    for pose in words.posed.finditer(text):
         rest = f"{text[: pose.start()].rstrip()} {text[pose.end() :].lstrip()}"
         pair = _pair(rest, pose[0], read, SURE)
         if pair and (pair.one_arm_each or not pair.arms_alone):
