@@ -6,7 +6,9 @@ import signal
 import socket
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -40,8 +42,10 @@ def test_it_can_be_stopped_while_it_waits_for_a_line() -> None:
     """A thread that waits in Python's buffer of stdin aborted one in six of interpreters."""
     command = [sys.executable, "-m", "src.cli.tools", "stream", "--steps", "2"]
     heard, line = os.pipe()  # `communicate` would close a pipe of its own, and end the stream by 0
-    pipes = {"stdin": heard, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:  # type: ignore[call-overload]
+    pipes: dict[str, Any] = {"stdin": heard, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    # a shell that runs tests in the background has them ignore Ctrl-C, and so would the stream
+    pipes["preexec_fn"] = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    with subprocess.Popen(command, cwd=ROOT, **pipes) as process:
         assert process.stdout.readline().startswith(b"{")
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
