@@ -34,8 +34,6 @@ from .words import (
     value_of,
 )  # fmt: skip
 
-# ---------------------------------------------------------------- what they mean
-
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
@@ -71,6 +69,7 @@ class Reading(NamedTuple):
 
 
 Read = Callable[[str], Reading]
+Strange = Callable[[str], object]
 GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
 PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
     "ups": (GOT_UP, STANDS),
@@ -96,6 +95,7 @@ class Clause:
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
         side: left, right or both.
         held: whether it stays as it is when it is done, to the end.
+        unheard: words beside it of which nothing is made.
     """
 
     text: str
@@ -107,6 +107,7 @@ class Clause:
     meanwhile: str = ""
     side: str = "both"
     held: bool = False
+    unheard: str = ""
 
     @property
     def far(self) -> bool:
@@ -122,16 +123,19 @@ class Clause:
     @property
     def plain(self) -> bool:
         """Whether it says nothing but what to do."""
-        return self == Clause(self.text)
+        return self == Clause(self.text, unheard=self.unheard)
 
 
-def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
+def clauses(
+    sentence: str, read: Read = lambda _: Reading(), strange: Strange = lambda _: None
+) -> list[Clause]:
     """The clauses of a sentence in the order in which they are to be done; at least one.
 
     Where no word tells of an order, a comma or an "and" parts two clauses only if `read` finds an
-    action of its own in each: "walks forward and waves", but not "jumps up and down". "Walks while
-    waving", "walks with one hand up" and "raises the left hand and waves with the right one" are
-    one clause, with what the arms do meanwhile.
+    action of its own in each: "walks forward and waves", but not "jumps up and down"; what is not
+    understood beside them is `unheard`, and so is what is `strange` (asks for what nobody taught):
+    "walks and picks up a coin". "Walks while waving", "walks with one hand up" and "raises the left
+    hand and waves with the right one" are one clause, with what the arms do meanwhile.
     """
     words, found = all_words(), list[Clause]()
 
@@ -140,13 +144,15 @@ def clauses(sentence: str, read: Read = lambda text: Reading()) -> list[Clause]:
         return next(own, None) or read(_bared(text, read))
 
     for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
-        pieces, last = _joined(whole, known), found[-1] if found else None
+        (pieces, unheard), last = _joined(whole, known, strange), found[-1] if found else None
+        in_row = len(pieces) > 2 and sum(bool(words.manner.search(each)) for each in pieces) > 1
         while pieces:
             first, *others = pieces
-            pair = _at_once(first, others[0], known) if others else None
+            pair = _at_once(first, others[0], known, in_row=in_row) if others else None
             clause = pair or _parted(first, known) or _measured(first)
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
+        found[-1] = replace(found[-1], unheard=unheard)
     found = [clause for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
     waits = first == STANDS and len(found) == 2  # "gets up after three seconds"
@@ -243,10 +249,8 @@ def _as_before(before: Clause, clause: Clause) -> Clause:
     words = all_words()
     if clause.degrees is not None or not words.sideways.match(clause.text):
         return clause
-    said, other = (
-        next(filter(None, (side.search(each.text) for side in (words.left, words.right))), None)
-        for each in (clause, before)
-    )
+    said, other = (words.left.search(each.text) or words.right.search(each.text)
+                   for each in (clause, before))  # fmt: skip
     if said is None or other is None or words.no_side.search(before.text):
         return clause
     text = before.text
@@ -268,19 +272,16 @@ def _ordered(text: str, read: Read) -> list[str]:
     if found and not after:
         found = found[::-1]
     for pattern, swapped in (
-        (words.beforehand, True),
-        (words.then, False),
-        (words.earlier, False),
-        (words.later, True),
-        (words.before, False),
-        (words.after, True),
-    ):
+        (words.beforehand, True), (words.then, False), (words.earlier, False),
+        (words.later, True), (words.before, False), (words.after, True),
+    ):  # fmt: skip
         for match in () if found else pattern.finditer(text):
             left, right = text[: match.start()], text[match.end() :]
             if pattern is words.then and begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
             bound = pattern in (words.before, words.after)
-            if bound and words.ended.search(left) and words.comma.search(right.lstrip(), 1):
+            stop = words.ended.search(left) if bound else None
+            if stop and (not stop["stop"] or words.comma.search(right.lstrip(), 1)):
                 found = left, text[match.start() :]  # "Sits. Once he has waved, he bows."
                 break
             if bound and not _is_time(text, match, right, read, sure=True):
@@ -306,9 +307,13 @@ def _is_time(text: str, word: re.Match[str], right: str, read: Read, sure: bool 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     """A clause at the head of a sentence and the rest: parted at the comma that leaves two
     actions, else at the first one; where there is none, at such a blank."""
-    commas = [match.span() for match in all_words().comma.finditer(text)]
-    if not commas:
-        return _best(text, _blanks(text), read)
+    words = all_words()
+    commas = [match.span() for match in words.comma.finditer(text)]
+    if not commas:  # "after walking in he waves | and then bows"
+        ends = [found.start() for each in (words.then, words.joint) if (found := each.search(text))]
+        return _best(
+            text, [cut for cut in _blanks(text) if cut[0] < min(ends, default=len(text))], read
+        )
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
@@ -328,44 +333,44 @@ def _around(left: str, right: str, then: str, read: Read) -> tuple[str, str]:
     return left[: borders[-1].start()], f"{own.rstrip()} {right.lstrip()}"
 
 
-def _joined(text: str, read: Read) -> list[str]:
-    """The text parted at stops and "and" into as many parts as tell of actions of their own; what
-    does not, stays with what stands beside it, but for what is denied at the head ("don't run, …").
-    """
-    denial = all_words().denial.match(text) or all_words().refusal.search(text)
+def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
+    """The text parted at stops and "and" into as many parts as tell of actions of their own, and
+    what none of them holds; what tells of none stays with what stands beside it, but for what is
+    denied at the head ("don't run, …"), and for what is strange."""
+    words = all_words()
+    denial = words.denial.match(text) or words.refusal.search(text)
     who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
     if denial and not (who and read(who).certainty > SURE):
         rest = _trimmed(text[denial.end() :])
         instead, denied = read(_measured(rest).text), read(_trimmed(denial[0]))
         if instead.certainty > SURE or (rest and denied.surely not in (None, instead.action)):
             text = rest  # not in "don't move, please"
-    borders = [match.span() for match in all_words().joint.finditer(text)]
-    pieces = [
-        (start, stop)
-        for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
-        if text[start:stop].strip(EDGES)
-    ]
+    borders = [match.span() for match in words.joint.finditer(text)]
+    pieces = [(start, stop)
+              for (_, start), (stop, _) in pairwise([(0, 0), *borders, (len(text), len(text))])
+              if text[start:stop].strip(EDGES)]  # fmt: skip
     if len(pieces) < 2:
-        return [text]
+        return [text], ""
+    each = [_trimmed(text[start:stop]) for start, stop in pieces]
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
+    odd = [not aside and not read(_measured(piece).text).surely and strange(piece)
+           for aside, piece in zip(asides, each, strict=True)]  # fmt: skip
     # The best ways up to a piece, one for what their last part is.
     ways: list[dict[_Last, _Way]] = [{(None, "both", False): _Way()}]
     for stop in range(1, len(pieces) + 1):
-        here = {last: way._replace(passed=way.passed + 1) for last, way in ways[-1].items()}
+        here = {last: way._replace(passed=(*way.passed, stop - 1))
+                for last, way in ways[-1].items()}  # fmt: skip
         for start in range(max(0, stop - MOST_PIECES), stop):
-            if asides[start] and (start or all(asides[:stop])):
-                continue  # stays with what stands before it, or else behind it
+            if (asides[start] and (start or all(asides[:stop]))) or any(odd[start:stop]):
+                continue  # an aside stays with what stands before it, or else behind it
             part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
             clause, side = _measured(part), side_of(part)
             reading, far = read(clause.text), clause.far
             last = reading.action, side, far
-            before = [
-                way
-                for (action, other, was_far), way in ways[start].items()
-                if action != reading.action
-                or (reading.certainty > SURE and ({other, side} == _SIDES or (far and was_far)))
-            ]
+            before = [way for (action, other, was_far), way in ways[start].items()
+                      if action != reading.action or (reading.certainty > SURE
+                      and ({other, side} == _SIDES or (far and was_far)))]  # fmt: skip
             led = far and reading.action in GOING  # its measure says that it is to be done
             led |= clause.seconds is not None and reading.action == "stand"
             sure = SURE_AT_MARK if led else SURE
@@ -373,8 +378,12 @@ def _joined(text: str, read: Read) -> list[str]:
                 way = max(before, key=_Way.rank).further(part, reading.certainty)
                 here[last] = max(way, here.get(last, way), key=_Way.rank)
         ways.append(here)
-    best = max(ways[-1].values(), key=_Way.rank).parts
-    return list(best) if len(best) > 1 else [text]
+    best = max(ways[-1].values(), key=_Way.rank)
+    if len(best.parts) > 1 or (
+        any(odd) and any(read(_measured(part).text).known for part in best.parts)
+    ):
+        return list(best.parts), ", ".join(each[at] for at in best.passed)
+    return [text], ""
 
 
 def _is_aside(piece: str, *, first: bool) -> bool:
@@ -385,14 +394,14 @@ def _is_aside(piece: str, *, first: bool) -> bool:
 
 
 class _Way(NamedTuple):
-    """A parting of the first pieces of a sentence, and how many of them no part holds."""
+    """A parting of the first pieces of a sentence, and which of them no part holds."""
 
     parts: tuple[str, ...] = ()
-    passed: int = 0
+    passed: tuple[int, ...] = ()
     certainty: float = 0.0
 
     def rank(self) -> tuple[int, int, float]:
-        return len(self.parts), -self.passed, self.certainty
+        return len(self.parts), -len(self.passed), self.certainty
 
     def further(self, part: str, certainty: float) -> "_Way":
         return _Way((*self.parts, part), self.passed, self.certainty + certainty)
@@ -425,15 +434,16 @@ def _blanks(text: str) -> list[Span]:
 # ---------------------------------------------------------------- at once
 
 
-def _at_once(first: str, second: str, read: Read) -> Clause | None:
+def _at_once(first: str, second: str, read: Read, *, in_row: bool) -> Clause | None:
     """A clause and what the arms do meanwhile, if a word says so, a participle or "with" begins the
-    second one, or one arm does the one and the other arm the other; else None."""
+    second one, Japanese ends the first one so (unless it is one of a row of such), or one arm does
+    the one and the other arm the other; else None."""
     words = all_words()
     marks = words.meanwhile, words.throughout
     said = any(mark.search(each) for each in (first, second) for mark in marks)
     if pair := _pair(first, second, read, SURE_IF_SAID if said else SURE):
         sign = words.sign.match(second)
-        manner = words.manner.search(first) and pair.clause.meanwhile == first
+        manner = words.manner.search(first) and pair.clause.meanwhile == first and not in_row
         if said or pair.one_arm_each or (not pair.arms_alone and (sign or manner)):
             return pair.clause
     return None
@@ -452,16 +462,10 @@ def _parted(text: str, read: Read) -> Clause | None:
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
         (signs + (_blanks(text) if said or each else []), SURE, SURE),
     ):
-        found = [
-            pair
-            for stop, start in cuts
-            if (pair := _pair(text[:stop], text[start:], read, sure))
-            and (
-                pair.one_arm_each
-                or (said and pair.certainty > enough)
-                or ((stop, start) in signs and not pair.arms_alone)
-            )
-        ]
+        found = [pair for stop, start in cuts
+                 if (pair := _pair(text[:stop], text[start:], read, sure))
+                 and (pair.one_arm_each or (said and pair.certainty > enough)
+                      or ((stop, start) in signs and not pair.arms_alone))]  # fmt: skip
         if found:
             return max(found, key=lambda pair: pair.certainty).clause
     for pose in words.posed.finditer(text):
@@ -498,12 +502,9 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     body, other = (1, 0) if first.arms and not second.arms else (0, 1)
     sides, alone = _sides(*halves), first.arms and second.arms
     halves = [_naming(half, side) for half, side in zip(halves, sides, strict=True)]
-    return _Pair(
-        replace(_measured(halves[body]), meanwhile=_HELD.sub("", halves[other]), side=sides[other]),
-        min(first.certainty, second.certainty),
-        alone,
-        alone and set(sides) == _SIDES,
-    )
+    meanwhile, certainty = _HELD.sub("", halves[other]), min(first.certainty, second.certainty)
+    clause = replace(_measured(halves[body]), meanwhile=meanwhile, side=sides[other])
+    return _Pair(clause, certainty, alone, alone and set(sides) == _SIDES)
 
 
 def _sides(first: str, second: str) -> list[str]:

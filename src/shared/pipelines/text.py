@@ -89,13 +89,13 @@ class SentenceGenerator:
         self.card, self.text, self.scope = generator.card, generator.text, generator.scope
         self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
         self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
-        self._bent, self._told = dict[str, float](), set[str]()
-        self._gaits: dict[tuple[str, Sampling, str | None], Gait] = {}
+        self._told, self._strange = set[str](), partial(unlearned, scope=self.scope)
+        self._bent, self._gaits = dict[str, float](), dict[tuple[str, Sampling, str | None], Gait]()
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
-            self._read[prompt] = clauses(prompt, self._reading)
+            self._read[prompt] = clauses(prompt, self._reading, self._strange)
         return self._read[prompt]
 
     def whole(self, prompt: str) -> str:
@@ -156,9 +156,8 @@ class SentenceGenerator:
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
             one = iter(found)
-            return {
-                i: [self._rested(next(one), prompts[i]) for _ in range(num_samples)] for i in rows
-            }
+            return {i: [self._rested(next(one), prompts[i]) for _ in range(num_samples)]
+                    for i in rows}  # fmt: skip
 
         scale, seeds = guidance_scale, retry_seeds(seed)
         while plain and (again := next(seeds, None)) is not None:
@@ -237,7 +236,9 @@ class SentenceGenerator:
         angled = {part.text for part in parts if part.degrees is not None}  # which says it
         for at, text in enumerate(texts):
             sure = text in angled and self._reading(text).surely in ROUND
-            lines[at] = unlearned(text, self.scope) or (None if sure else lines[at])
+            lines[at] = self._strange(text) or (None if sure else lines[at])
+        unheard = filter(None, (part.unheard for part in parts))
+        lines += [self._strange(text) or f"nothing is made of {text!r}" for text in unheard]
         return self._lines.setdefault(prompt, lines) if again else lines
 
     # ------------------------------------------------------------ one sentence
@@ -337,8 +338,7 @@ class SentenceGenerator:
         """Whether a clause asks for claps and does not say how many."""
         if self._nearest(clause.text) != "clap" or clause.count > 1 or clause.metres is not None:
             return False
-        known = self._reading(CLAPS)
-        return known.action == "clap" and known.certainty > 0 and not says_number(clause.text)
+        return self._reading(CLAPS).surely == "clap" and not says_number(clause.text)
 
     def _pace(self, clause: Clause) -> int:
         """How many times as fast a clause is shown as the network makes it."""

@@ -151,7 +151,7 @@ class Words:
         self.noun = re.compile(rf"{_COMMAS}?\s*{nouns}", re.I)
         owned = [*all_of("own"), *all_of("left"), *all_of("right")]
         asides = [*all_of("limbs"), *all_of("aside"), *all_of("throughout")]
-        self.ended = re.compile(r"[.!?;。！？；…]\s*$")
+        self.ended = re.compile(rf"(?:(?P<stop>[.!?;。！？；…])|{_any(joints)},?)\s*$", re.I)
         self.aside = re.compile(_any([*owned, *asides]), re.I)
         self.lacking = re.compile(_any(all_of("lacking")), re.I)
         denial = rf"\s*{_any(all_of('denied'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
@@ -246,7 +246,8 @@ class Words:
         self.bends = Rare(bends, [word.replace("SIDE", " ") for word in all_of("bends")])
         self.verb_then = re.compile(rf"\s*{_any(all_of('verb_then'))}", re.I)
         again = rf"(?:\s*{_any(all_of('again'))})*"
-        self.ups = Rare(rf"^{someone}{_any(all_of('ups'))}{again}\W*$", all_of("ups"))
+        up = rf"{_any(all_of('ups'))}(?:\s+{_any(all_of('seats'))})?{again}"
+        self.ups = Rare(rf"^{someone}{up}\W*$", all_of("ups"))
         # "with both arms raised", "mit erhobenen Armen", "arms up" behind a comma, in whole phrases
         arms = _any(sorted({*all_of("limbs")} - {*all_of("fists")}))
         aloft = rf"\s+{_any(all_of('aloft'))}"

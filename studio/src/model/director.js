@@ -25,7 +25,7 @@ export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
   constructor(sampler, scope, settings) {
     Object.assign(this, { sampler, scope, settings, bent: new Map() });
-    this.reader = new SentenceReader(settings.measures, (text) => this.reading(text));
+    this.reader = new SentenceReader(settings.measures, (text) => this.reading(text), (text) => this.unlearned(text));
   }
 
   /** What a text alone asks for, even where it seldom comes out. */
@@ -50,6 +50,7 @@ export class Director {
     const angled = new Set(parts.filter(({ degrees }) => degrees !== null).map(({ text }) => text)); // the angle says it
     const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
     const told = texts.map((text, i) => this.unlearned(text) ?? (sure(text) ? null : lines[i])).filter(Boolean);
+    for (const { unheard } of parts) if (unheard) told.push(this.unlearned(unheard) ?? `Nothing is made of “${unheard}”.`);
     return [...new Set(told)].join(" ") || null;
   }
 

@@ -1,5 +1,5 @@
 // What a sentence says of order and measure (src/shared/pipelines/sentence.py, whose patterns come
-// with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held }.
+// with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held, unheard }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180, FEW = 2;
@@ -19,7 +19,7 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false });
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false, unheard: "" });
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
@@ -55,7 +55,7 @@ const opposite = (one, other) => one !== other && one !== "both" && other !== "b
 
 /** Of two partings, is the first one at least as good? */
 function asGood(one, other) {
-  const [a, b] = [one, other].map(({ parts, passed, certainty }) => [parts.length, -passed, certainty]);
+  const [a, b] = [one, other].map(({ parts, passed, certainty }) => [parts.length, -passed.length, certainty]);
   const at = a.findIndex((value, i) => value !== b[i]);
   return at < 0 || a[at] > b[at];
 }
@@ -64,14 +64,14 @@ const best = (ways) => ways.reduce((found, way) => (asGood(found, way) ? found :
 
 export class SentenceReader {
   /** @param {object} measures patterns and words @param {function} read what a text alone asks for:
-   *  { action, certainty, arms } */
-  constructor({ patterns, ...words }, read) {
+   *  { action, certainty, arms, known } @param {function} strange whether a text asks for what nobody taught */
+  constructor({ patterns, ...words }, read, strange = () => false) {
     const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
     const known = (text) => {
       const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
       return name ? PLAINLY[name][0] : read(this.bared(text));
     };
-    Object.assign(this, words, { learned, plainRead: read, read: known });
+    Object.assign(this, words, { learned, plainRead: read, read: known, strange });
     this.first = {}; this.each = {}; this.head = {}; this.entire = {}; this.there = {};
     for (const [name, pattern] of Object.entries(patterns)) {
       this.first[name] = new RegExp(pattern, "iu");
@@ -84,15 +84,17 @@ export class SentenceReader {
   clauses(sentence) {
     const text = this.staying(plain(this.tidied(sentence))), found = [];
     for (const whole of this.ordered(text)) {
-      let last = found.at(-1);
-      for (let pieces = this.joined(whole); pieces.length;) {
+      let last = found.at(-1), { parts: pieces, unheard } = this.joined(whole);
+      const inRow = pieces.length > 2 && pieces.filter((each) => this.first.manner.test(each)).length > 1;
+      while (pieces.length) {
         const [first, ...others] = pieces;
-        const pair = others.length ? this.atOnce(first, others[0]) : null;
+        const pair = others.length ? this.atOnce(first, others[0], inRow) : null;
         const clause = pair ?? this.parted(first) ?? this.measured(first);
         found.push(last ? this.asBefore(last, clause) : clause);
         last = null;
         pieces = pair ? others.slice(1) : others;
       }
+      found.push({ ...found.pop(), unheard });
     }
     let real = found.filter((clause) => clause.text);
     if (!real.length) real = [plainClause(sentence)];
@@ -242,7 +244,8 @@ export class SentenceReader {
         let left = text.slice(0, start), right = text.slice(stop);
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
         const bound = name === "before" || name === "after";
-        if (bound && this.first.ended.test(left) && this.first.comma.test(right.trimStart().slice(1))) { // "Sits. Once he has waved, he bows."
+        const ended = bound && this.first.ended.exec(left);
+        if (ended && (!ended.groups.stop || this.first.comma.test(right.trimStart().slice(1)))) { // "Sits. Once he has waved, he bows."
           found = [left, text.slice(start)];
           break;
         }
@@ -274,7 +277,10 @@ export class SentenceReader {
 
   subordinate(text) {
     const commas = spans(text, this.each.comma);
-    if (!commas.length) return this.best(text, spans(text, BLANKS));
+    if (!commas.length) { // "after walking in he waves | and then bows"
+      const end = Math.min(text.length, ...["then", "joint"].map((name) => this.first[name].exec(text)?.index ?? Infinity));
+      return this.best(text, spans(text, BLANKS).filter(([start]) => start < end));
+    }
     const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];
     return halves.every((half) => strip(half)) ? halves : null;
   }
@@ -301,13 +307,16 @@ export class SentenceReader {
     const pieces = borders.slice(1)
       .map(([stop], i) => [borders[i][1], stop])
       .filter(([start, stop]) => strip(text.slice(start, stop)));
+    const each = pieces.map((piece) => this.trimmed(text.slice(...piece)));
     const asides = pieces.map((piece, place) => this.isAside(text.slice(...piece), !place));
+    const odd = each.map((piece, i) => pieces.length > 1 && !asides[i] && !surely(this.reading(piece)) && this.strange(piece));
     // The best ways up to a piece, one for what their last part is.
-    const ways = [new Map([["", { parts: [], passed: 0, certainty: 0, action: null, side: "both", far: false }]])];
+    const ways = [new Map([["", { parts: [], passed: [], certainty: 0, action: null, side: "both", far: false }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
-      const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: way.passed + 1 }]));
+      const here = new Map([...ways[stop - 1]].map(([last, way]) => [last, { ...way, passed: [...way.passed, stop - 1] }]));
       for (let start = Math.max(0, stop - MOST_PIECES); start < stop; start++) {
         if (asides[start] && (start || asides.slice(0, stop).every(Boolean))) continue; // stays with what stands before it, or else behind it
+        if (odd.slice(start, stop).some(Boolean)) continue;
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
         const clause = this.measured(part), far = isFar(clause);
         const { action, certainty } = this.reading(part), side = this.sideOf(part);
@@ -321,8 +330,9 @@ export class SentenceReader {
       }
       ways.push(here);
     }
-    const { parts } = best([...ways.at(-1).values()]);
-    return parts.length > 1 ? parts : [text];
+    const { parts, passed } = best([...ways.at(-1).values()]);
+    const partly = odd.some(Boolean) && parts.some((part) => this.reading(part).known ?? true);
+    return parts.length > 1 || partly ? { parts, unheard: passed.map((i) => each[i]).join(", ") } : { parts: [text], unheard: "" };
   }
 
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */
@@ -343,12 +353,12 @@ export class SentenceReader {
     return found;
   }
 
-  atOnce(first, second) {
+  atOnce(first, second, inRow) {
     const said = [first, second].some((each) => this.first.meanwhile.test(each) || this.first.throughout.test(each));
     const pair = this.pair(first, second, said ? SURE_IF_SAID : SURE);
     if (!pair) return null;
     const sign = this.head.sign.test(second);
-    const manner = this.first.manner.test(first) && pair.clause.meanwhile === first;
+    const manner = this.first.manner.test(first) && pair.clause.meanwhile === first && !inRow;
     return said || pair.oneArmEach || (!pair.armsAlone && (sign || manner)) ? pair.clause : null;
   }
 

@@ -57,6 +57,22 @@ TWO = [
     ("nach kurzem Anlauf springt er", ["rennt los", "springt er"]),
     ("una niña levanta la mano y se va caminando", ["levanta la mano", "camina"]),
     ("手を振ったら、そのまま後ろに歩く", ["手を振ったら", "後ろに歩く"]),
+    ("Jump up and after you land spin around.", ["Jump up", "spin around"]),
+    ("she walks in, and once she arrives she bows", ["she walks in", "she bows"]),
+    ("After jumping he claps and finishes with a bow.", ["jumping", "he claps", "a bow"]),
+    ("rises from his chair and waves", ["sits", "stands still", "waves"]),
+    ("La niña salta y, nada más caer, da una vuelta sobre sí misma.",
+     ["La niña salta", "da una vuelta sobre sí misma"]),
+    ("salta; gelandet, winkt er", ["salta", "winkt er"]),
+    ("Spring! Und sobald du wieder stehst, dreh dich um die eigene Achse.",
+     ["Spring", "dreh dich um die eigene Achse"]),
+    ("il saute et, une fois au sol, il salue", ["il saute", "il salue"]),
+    ("ジャンプして着地したら拳を突き出す", ["ジャンプして", "拳を突き出す"]),
+    ("手を振って、お辞儀をして、歩く", ["手を振って", "お辞儀をして", "歩く"]),
+    ("ジャンプした女の子が歩き出す", ["ジャンプした", "歩き出す"]),
+    ("出拳后踢腿", ["出拳", "踢腿"]),
+    ("做完一个深蹲马上跑出去", ["做完一个深蹲", "跑出去"]),
+    ("跳完舞鼓掌", ["跳舞", "鼓掌"]),
     ("走って、しゃがみ、跳び上がる", ["走って", "しゃがんで", "跳び上がる"]),
     ("走着走着蹦了一下", ["走", "跳了一下"]),
     ("he bows after the second kick", ["the second kick", "he bows"]),
@@ -270,6 +286,28 @@ def test_raised_arms_by_the_way_are_meanwhile(
 ):
     (clause,) = sentences.clauses(sentence)
     assert (clause.text, clause.meanwhile) == (text, meanwhile)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "texts", "unheard"),
+    [
+        ("he walks and picks up a coin", ["he walks"], "picks up a coin"),
+        ("sie winkt und hebt etwas vom Boden auf", ["sie winkt"], "hebt etwas vom Boden auf"),
+        ("se pone de rodillas y recoge una moneda del suelo, aplaude",
+         ["stands still", "se pone de rodillas", "aplaude"], "recoge una moneda del suelo"),
+        ("ひざまずいて床の花を拾って立ち上がって",
+         ["stands still", "ひざまずいて", "stands still"], "床の花を拾って"),
+    ],
+)  # fmt: skip
+def test_what_nobody_taught_is_left_out_and_told(
+    sentence: str, texts: list[str], unheard: str, sentences: SentenceGenerator
+):
+    found = sentences.clauses(sentence)
+    assert [clause.text for clause in found] == texts
+    assert [clause.unheard for clause in found if clause.unheard] == [unheard]
+    [warning] = sentences.scope_warnings([sentence])
+    assert warning is not None and unheard in warning
+    assert sentences.whole(sentence) == (texts[0] if len(texts) == 1 else sentence)
 
 
 @pytest.mark.parametrize("sentence", ONE)

@@ -638,6 +638,18 @@ def test_every_idiom_is_put_plainly(language: str) -> None:
             tidied(words if language in ("ja", "zh") or ahead else f"she bows {words}")
 
 
+def test_what_no_clause_holds_is_unheard() -> None:
+    sure = {"walks": Reading("walk", 2.0), "waves": Reading("wave", 2.0, arms=True)}
+
+    def read(text: str) -> Reading:
+        return sure.get(text, Reading())
+
+    assert clauses("walks, blue, waves", read) == [Clause("walks"), Clause("waves", unheard="blue")]
+    assert clauses("walks, blue", read) == [Clause("walks, blue")]
+    told = clauses("walks, blue", read, lambda text: text == "blue")
+    assert told == [Clause("walks", unheard="blue")] and told[0].plain
+
+
 def test_what_lands_is_no_second_action_and_what_stays_down_is() -> None:
     assert tidied("he jumps and lands in a squat") == "he jumps "
     assert "lands in a squat" in tidied("he jumps and lands in a squat and stays down")
