@@ -99,7 +99,8 @@ def convert(
     for (task, _), (length, error) in run_jobs(attempt, todo, workers, scheduler):
         job = tasks[task]
         if error is not None:
-            if len(jobs) + len(kept) == 1 or isinstance(error, UsageError):
+            there = job.source.is_file()  # a link that leads nowhere is its own fault alone
+            if len(jobs) + len(kept) == 1 or (there and isinstance(error, UsageError)):
                 raise error
             complain(f"error: {error}")
             faults.append({"file": str(job.source), "error": str(error)})

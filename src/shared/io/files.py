@@ -15,7 +15,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from ..errors import UserError
+from ..errors import UsageError, UserError
 from .storage import Address, Place, files_below
 
 MAX_JSON = 256 << 20  # bytes
@@ -125,7 +125,8 @@ def read_text(path: Path, wanted: str) -> str:
         wanted: what the file should be, with its article, for errors.
 
     Raises:
-        UserError: missing, unreadable, too large, or in neither of them.
+        UsageError: it does not exist.
+        UserError: unreadable, too large, or in neither of them.
     """
     try:
         with Path(path).open("rb") as stream:
@@ -134,6 +135,8 @@ def read_text(path: Path, wanted: str) -> str:
             wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
             return data.decode("utf-16" if wide else "utf-8-sig")
         reason = f"larger than {MAX_TEXT >> 20} MB"
+    except FileNotFoundError:
+        raise UsageError(f"{path} does not exist; give {wanted}") from None
     except OSError as error:
         reason = error.strerror or str(error)
     except UnicodeDecodeError as error:
