@@ -82,9 +82,11 @@ def chosen_joints(names: Collection[str]) -> set[str]:
     """Joints by their names and those of groups; one name may stand alone.
 
     Raises:
-        UsageError: a name is unknown; names the nearest one.
+        UsageError: there is none, or a name is unknown; names the nearest one.
     """
     known = [*GROUPS, *JOINT_INDEX]
+    if isinstance(names, Collection) and not names:
+        raise UsageError(f"joints is empty; name joints, or groups of them: {', '.join(GROUPS)}")
     names = names if isinstance(names, Collection) and not isinstance(names, str) else [names]
     for name in names:
         if name not in known:
@@ -180,7 +182,7 @@ def edit_clip(
     if begin < 0 or round(until * clip.fps) > clip.num_frames or start >= stop:
         raise UserError(
             f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
-            " it"
+            f" it that holds a frame, {1 / FPS:.3f} s"
         )
     return redo(ours, start, stop, None if joints is None else chosen_joints(joints))
 
@@ -224,7 +226,9 @@ def continue_clips(
     in_range("seconds", seconds, 0.0, LONGEST)
     frames, kept = round(seconds * FPS), round(keep * FPS)
     kept = min(kept, *(clip.num_frames for clip in clips))  # seconds of another rate
-    if frames - len(clips) * kept < 1 or kept < 1:
+    if kept < 1:
+        raise UsageError(f"keep {keep:g} s holds no frame; keep {1 / FPS:.3f} s or more")
+    if frames - len(clips) * kept < 1:
         raise UsageError(
             f"a length of {seconds:g} s leaves nothing to make: {len(clips)} × {keep:g} s are kept;"
             " give more seconds or keep less"

@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.errors import UsageError
+from src.shared.errors import UsageError, UserError
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
@@ -262,6 +262,12 @@ def test_times_that_are_none_are_refused_and_one_joint_may_stand_alone(clip: Mot
     ):
         with pytest.raises(UsageError, match="is out of range; choose from"):
             wrong()
+    with pytest.raises(UsageError, match=r"keep 0 s holds no frame; keep 0\.033 s"):
+        continue_clips(clip, keep=0.0)
+    with pytest.raises(UserError, match="a span of it that holds a frame"):
+        edit_clip(clip, 0.5, 0.51)
+    with pytest.raises(UsageError, match="joints is empty"):
+        edit_clip(clip, joints=[])
     one, listed = (edit_clip(clip, 0, 1, names) for names in ("head", ["head"]))
     assert torch.equal(one.constraint.known, listed.constraint.known)
 

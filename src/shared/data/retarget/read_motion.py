@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import UserError, in_range
+from ...errors import UsageError, UserError, in_range
 from ...formats.amass import is_amass, read_amass
 from ...formats.arrays import read_npz
 from ...formats.csv_files import read_motion_csv
@@ -185,10 +185,12 @@ def read_motion(
         source_fps: of the recording, for formats that do not say (AMC: 120 is assumed).
 
     Raises:
-        UsageError: a rate out of range.
-        UserError: missing, damaged, too large, of no known format, or with joints that no profile
+        UsageError: no path, a rate out of range, or there is no such file.
+        UserError: damaged, too large, of no known format, or with joints that no profile
             maps; names the file, the place and the remedy.
     """
+    if not isinstance(path, str | Path):
+        raise UsageError(f"path is {path!r}; give the path of a motion file")
     for name, rate in (("fps", fps), ("source_fps", source_fps)):
         if rate is not None:
             in_range(name, rate, *RATES)

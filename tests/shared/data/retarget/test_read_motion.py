@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -72,3 +73,11 @@ def test_rates_and_lengths_are_held_in_bounds(tmp_path: Path) -> None:
             read_motion(path, fps=fps)  # type: ignore[arg-type]
     with pytest.raises(UserError, match="over the limit of 200000 frames"):
         read_motion(path)
+
+
+def test_what_is_no_file_is_a_mistake_of_whoever_asks(tmp_path: Path) -> None:
+    nothing: Any = None
+    with pytest.raises(UsageError, match="path is None; give the path of a motion file"):
+        read_motion(nothing)
+    with pytest.raises(UsageError, match=r"no\.bvh does not exist; check the name"):
+        read_motion(tmp_path / "no.bvh")
