@@ -95,7 +95,7 @@ class Clause:
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
         side: left, right or both.
         held: whether it stays as it is when it is done, to the end.
-        unheard: words beside it of which nothing is made.
+        unheard: of the last of some clauses, the words beside them of which nothing is made.
     """
 
     text: str
@@ -281,7 +281,8 @@ def _ordered(text: str, read: Read) -> list[str]:
                 continue  # "después" alone, not "después de haber saltado"
             bound = pattern in (words.before, words.after)
             stop = words.ended.search(left) if bound else None
-            if stop and (not stop["stop"] or words.comma.search(right.lstrip(), 1)):
+            if stop and (words.comma.search(right.lstrip(), 1)
+                         or (not stop["stop"] and _subordinate(right, read))):  # fmt: skip
                 found = left, text[match.start() :]  # "Sits. Once he has waved, he bows."
                 break
             if bound and not _is_time(text, match, right, read, sure=True):
@@ -311,9 +312,8 @@ def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     commas = [match.span() for match in words.comma.finditer(text)]
     if not commas:  # "after walking in he waves | and then bows"
         ends = [found.start() for each in (words.then, words.joint) if (found := each.search(text))]
-        return _best(
-            text, [cut for cut in _blanks(text) if cut[0] < min(ends, default=len(text))], read
-        )
+        early = [cut for cut in _blanks(text) if cut[1] < min(ends, default=0)]
+        return _best(text, early, read) or _best(text, _blanks(text), read)
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
@@ -335,8 +335,8 @@ def _around(left: str, right: str, then: str, read: Read) -> tuple[str, str]:
 
 def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own, and
-    what none of them holds; what tells of none stays with what stands beside it, but for what is
-    denied at the head ("don't run, …"), and for what is strange."""
+    what none of them holds: what is strange, and what tells of no action and would make unsure what
+    stands beside it. Nothing stays of what is denied at the head ("don't run, …")."""
     words = all_words()
     denial = words.denial.match(text) or words.refusal.search(text)
     who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
@@ -354,8 +354,9 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     each = [_trimmed(text[start:stop]) for start, stop in pieces]
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
-    odd = [not aside and not read(_measured(piece).text).surely and strange(piece)
-           for aside, piece in zip(asides, each, strict=True)]  # fmt: skip
+    more = [words.meanwhile.search(piece) or _HELD.search(piece) for piece in each]
+    odd = [not (aside or said or read(_measured(piece).text).surely) and strange(piece)
+           for aside, said, piece in zip(asides, more, each, strict=True)]  # fmt: skip
     # The best ways up to a piece, one for what their last part is.
     ways: list[dict[_Last, _Way]] = [{(None, "both", False): _Way()}]
     for stop in range(1, len(pieces) + 1):
@@ -382,7 +383,7 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     if len(best.parts) > 1 or (
         any(odd) and any(read(_measured(part).text).known for part in best.parts)
     ):
-        return list(best.parts), ", ".join(each[at] for at in best.passed)
+        return list(best.parts), _HELD.sub("", ", ".join(each[at] for at in best.passed))
     return [text], ""
 
 
@@ -436,8 +437,7 @@ def _blanks(text: str) -> list[Span]:
 
 def _at_once(first: str, second: str, read: Read, *, in_row: bool) -> Clause | None:
     """A clause and what the arms do meanwhile, if a word says so, a participle or "with" begins the
-    second one, Japanese ends the first one so (unless it is one of a row of such), or one arm does
-    the one and the other arm the other; else None."""
+    second one, て ends the first one (not in a row of such), or each arm does one; else None."""
     words = all_words()
     marks = words.meanwhile, words.throughout
     said = any(mark.search(each) for each in (first, second) for mark in marks)

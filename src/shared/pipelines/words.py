@@ -57,6 +57,7 @@ _NOT = "(?:[のん](?:では|じゃ)なく(?:て)?|の?(?:代|か)わりに)"
 _NOT_THIS = f"(?:^|(?<=[、。，,]))[^、。，,]{{1,40}}?{_NOT}[、，,]?"
 # German says its verb behind what is done with it.
 _STATT = rf"(?<!{_LETTER})(?:an)?statt\s[^,;.!?]{{0,60}}?\bzu\s+{_LETTER}+n\b,?"
+_TRAIL = r"(?:\s+lang(?!\w))?"  # behind a measure, and nothing without it
 _STEP = r"(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?"  # before a number of a list
 _RUN = rf"[{_CJK}]+|(?:{_LETTER})+"  # of signs or of letters, as patterns part words
 WORD = re.compile(r"\w+")
@@ -129,7 +130,10 @@ class Words:
         self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
         self.joint = re.compile(rf"{self.stop.pattern}|{_any(all_of('next'))}", re.I)
         then = rf"(?:{_any(all_of('then'))}|{_ARROWS})"
-        self.then = re.compile(rf"{_STOPS}?\s*{then}{_COMMAS}?", re.I)
+        # Who has arrived, at a head: "and once she lands she waves", but not "lands a blow".
+        head = rf"(?:^|{_STOPS}\s*(?:{_any(joints)}\s*)?|{_any(joints)}\s*|(?<=[て了来起]))\s*"
+        there = rf"{_any(all_of('arrived'))}(?!\s+{_any([*all_of('own'), *all_of('places')])})"
+        self.then = re.compile(rf"(?:{_STOPS}?\s*{then}|{head}{there}){_COMMAS}?", re.I)
         self.earlier = re.compile(_any(all_of("earlier")) + _COMMAS + "?", re.I)
         self.later = re.compile(_any(all_of("later")) + _COMMAS + "?", re.I)
         self.meanwhile, self.throughout, self.before, self.after = (
@@ -184,7 +188,7 @@ class Words:
         self.takes = re.compile(_any(all_of("takes")), re.I)
         larger = rf"(?:{_any(all_of('larger'))}|{_any(numbers)})"
         self.larger = re.compile(rf"{larger}(?:\s+{_any(all_of('and'))})?[\s-]*$", re.I)
-        half = rf"(?P<half>\s*{_any(all_of('half'))})?{_trail()}"
+        half = rf"(?P<half>\s*{_any(all_of('half'))})?{_TRAIL}"
 
         def measure(name: str) -> str:
             one = articles if name in ("metres", "minutes") else []  # not "a second wave"
@@ -303,11 +307,6 @@ def _lead() -> str:
         "|für|um|von|etwa|ungefähr|rund"
     )
     return rf"(?:(?<!\w)(?:{leads})\s+)*"
-
-
-def _trail() -> str:
-    """Words behind a measure that mean nothing without it."""
-    return r"(?:\s+lang(?!\w))?"
 
 
 def _any(words: Sequence[str] | dict[str, Any]) -> str:

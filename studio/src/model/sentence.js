@@ -245,7 +245,7 @@ export class SentenceReader {
         if (name === "then" && this.beginsAfter(text, start, stop)) continue;
         const bound = name === "before" || name === "after";
         const ended = bound && this.first.ended.exec(left);
-        if (ended && (!ended.groups.stop || this.first.comma.test(right.trimStart().slice(1)))) { // "Sits. Once he has waved, he bows."
+        if (ended && (this.first.comma.test(right.trimStart().slice(1)) || (!ended.groups.stop && this.subordinate(right)))) { // "Sits. Once he has waved, he bows."
           found = [left, text.slice(start)];
           break;
         }
@@ -278,8 +278,9 @@ export class SentenceReader {
   subordinate(text) {
     const commas = spans(text, this.each.comma);
     if (!commas.length) { // "after walking in he waves | and then bows"
-      const end = Math.min(text.length, ...["then", "joint"].map((name) => this.first[name].exec(text)?.index ?? Infinity));
-      return this.best(text, spans(text, BLANKS).filter(([start]) => start < end));
+      const ends = ["then", "joint"].map((name) => this.first[name].exec(text)?.index).filter((at) => at !== undefined);
+      const cuts = spans(text, BLANKS), end = Math.min(...ends);
+      return (ends.length && this.best(text, cuts.filter(([, stop]) => stop < end))) || this.best(text, cuts);
     }
     const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];
     return halves.every((half) => strip(half)) ? halves : null;
@@ -309,7 +310,8 @@ export class SentenceReader {
       .filter(([start, stop]) => strip(text.slice(start, stop)));
     const each = pieces.map((piece) => this.trimmed(text.slice(...piece)));
     const asides = pieces.map((piece, place) => this.isAside(text.slice(...piece), !place));
-    const odd = each.map((piece, i) => pieces.length > 1 && !asides[i] && !surely(this.reading(piece)) && this.strange(piece));
+    const more = (piece) => this.first.meanwhile.test(piece) || MARK.test(piece);
+    const odd = each.map((piece, i) => pieces.length > 1 && !asides[i] && !more(piece) && !surely(this.reading(piece)) && this.strange(piece));
     // The best ways up to a piece, one for what their last part is.
     const ways = [new Map([["", { parts: [], passed: [], certainty: 0, action: null, side: "both", far: false }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
@@ -332,7 +334,7 @@ export class SentenceReader {
     }
     const { parts, passed } = best([...ways.at(-1).values()]);
     const partly = odd.some(Boolean) && parts.some((part) => this.reading(part).known ?? true);
-    return parts.length > 1 || partly ? { parts, unheard: passed.map((i) => each[i]).join(", ") } : { parts: [text], unheard: "" };
+    return parts.length > 1 || partly ? { parts, unheard: unmarked(passed.map((i) => each[i]).join(", ")) } : { parts: [text], unheard: "" };
   }
 
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */

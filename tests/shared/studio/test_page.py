@@ -556,6 +556,7 @@ def test_fields_show_what_the_scene_has(browser: Browser, tmp_path: Path) -> Non
 
 @BROWSER
 def test_seconds_that_the_words_ask_for_are_told_and_cut(browser: Browser) -> None:
+    browser.wait("!studio.making")  # what it shows at first
     said = "new MutationObserver(() => globalThis.said++).observe(document.getElementById('status')"
     browser.evaluate(f"globalThis.said = 0; {said}, {{ childList: true }})")
     made(browser, "{ blocks: [{ text: 'a person walks four metres', seconds: 2 }], seed: 1 }")
