@@ -206,15 +206,13 @@ def _staying(text: str, read: Read) -> str:
     while found := [m for each in (words.held, words.halts) if (m := each.search(text, place))]:
         match = min(found, key=lambda each: each.start())
         left, stop = text[: match.start()], match.end()
-        long = _lasting(text, stop)
-        if long:
+        if long := _lasting(text, stop):
             stop = long[0]
         own = left[left.rfind(ARROW.strip()) + 1 :]
         tail = own[max((each.end() for each in words.joint.finditer(own)), default=0) :]
         tried = (read(_measured(_trimmed(each)).text).surely for each in (tail, own))
-        action, said = next(filter(None, tried), None), ""
-        if re.search("[不没别勿]", left[-4:]):
-            action = None
+        denied = re.search("[不没别勿]", left[-4:])
+        action, said = None if denied else next(filter(None, tried), None), ""
         stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
         # "crouches and stays down", not "sneaks, staying low"
         if stays and action == "crouch-walk":
@@ -287,6 +285,11 @@ def _ordered(text: str, read: Read) -> list[str]:
                 break
             if bound and not _is_time(text, match, right, read, sure=True):
                 continue
+            inner = match[0].lstrip()[:1] == "," and words.comma.search(right) and bound
+            if inner and not read(_trimmed(left)).surely and (two := _subordinate(right, read)):
+                own = f"{left} {two[1].lstrip()}"  # "The actor, after waving, bows."
+                found = (two[0], own) if swapped else (own, two[0])
+                break
             if pattern is words.then and match[0].lstrip()[:1].isalpha():
                 left, right = _around(left, right, match[0], read)
             if left.strip(EDGES) and right.strip(EDGES):
@@ -376,7 +379,8 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
             led |= clause.seconds is not None and reading.action == "stand"
             sure = SURE_AT_MARK if led else SURE
             if before and reading.certainty > sure:
-                way = max(before, key=_Way.rank).further(part, reading.certainty)
+                parts, passed, certainty = max(before, key=_Way.rank)
+                way = _Way((*parts, part), passed, certainty + reading.certainty)
                 here[last] = max(way, here.get(last, way), key=_Way.rank)
         ways.append(here)
     best = max(ways[-1].values(), key=_Way.rank)
@@ -404,9 +408,6 @@ class _Way(NamedTuple):
     def rank(self) -> tuple[int, int, float]:
         return len(self.parts), -len(self.passed), self.certainty
 
-    def further(self, part: str, certainty: float) -> "_Way":
-        return _Way((*self.parts, part), self.passed, self.certainty + certainty)
-
 
 def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:
     """Whether both are understood, as two actions."""
@@ -428,8 +429,7 @@ def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None
 
 def _blanks(text: str) -> list[Span]:
     """Where words meet, in writing without blanks all places but behind the first sign."""
-    found = re.finditer(rf"\s+|(?<={CJK_SIGN}{{2}})(?={CJK_SIGN}{{2}})", text)
-    return [match.span() for match in found]
+    return [m.span() for m in re.finditer(rf"\s+|(?<={CJK_SIGN}{{2}})(?={CJK_SIGN}{{2}})", text)]
 
 
 # ---------------------------------------------------------------- at once

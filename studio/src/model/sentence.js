@@ -250,6 +250,13 @@ export class SentenceReader {
           break;
         }
         if (bound && !this.isTime(text, start, right, true)) continue;
+        const inner = bound && text.slice(start, stop).trimStart()[0] === "," && this.first.comma.test(right);
+        const two = inner && !surely(this.read(this.trimmed(left))) && this.subordinate(right);
+        if (two) { // "The actor, after waving, bows."
+          const own = `${left} ${two[1].trimStart()}`;
+          found = swapped ? [two[0], own] : [own, two[0]];
+          break;
+        }
         if (name === "then" && /^\s*\p{L}/u.test(text.slice(start, stop))) [left, right] = this.around(left, right, text.slice(start, stop));
         if (!strip(left) || !strip(right)) continue;
         found = swapped ? [right, left] : [left, right];
