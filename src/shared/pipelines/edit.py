@@ -82,11 +82,9 @@ def chosen_joints(names: Collection[str]) -> set[str]:
     """Joints by their names and those of groups; one name may stand alone.
 
     Raises:
-        UsageError: there is none, or a name is unknown; names the nearest one.
+        UsageError: a name is unknown; names the nearest one.
     """
     known = [*GROUPS, *JOINT_INDEX]
-    if isinstance(names, Collection) and not names:
-        raise UsageError(f"joints is empty; name joints, or groups of them: {', '.join(GROUPS)}")
     names = names if isinstance(names, Collection) and not isinstance(names, str) else [names]
     for name in names:
         if name not in known:
@@ -171,7 +169,7 @@ def edit_clip(
         joints: only these, or groups of them as "right-arm"; None = the whole body and its path.
 
     Raises:
-        UsageError: a joint is unknown, or as `at_our_rate`.
+        UsageError: a joint is unknown, there is none, or as `at_our_rate`.
         UserError: the span is not in the clip.
     """
     ours = at_our_rate(clip, "clip")
@@ -184,7 +182,10 @@ def edit_clip(
             f"from {begin:g} to {until:g} s: the clip lasts {clip.seconds:.2f} s; choose a span of"
             f" it that holds a frame, {1 / FPS:.3f} s"
         )
-    return redo(ours, start, stop, None if joints is None else chosen_joints(joints))
+    chosen = None if joints is None else chosen_joints(joints)
+    if chosen == set():
+        raise UsageError(f"joints is empty; name joints, or groups of them: {', '.join(GROUPS)}")
+    return redo(ours, start, stop, chosen)
 
 
 def continue_clips(
