@@ -11,7 +11,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place, decode_features
 from src.shared.pipelines.path import (
     FASTEST,
@@ -109,7 +109,7 @@ def test_nonsense_in_yaml(tmp_path: Path, text: str, message: str) -> None:
 
 
 def test_a_missing_and_a_binary_file(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="cannot be read"):
+    with pytest.raises(UsageError, match="does not exist; give a"):
         read_path(tmp_path / "none.csv")
     (tmp_path / "b.csv").write_bytes(b"\xff\x00\x80")
     with pytest.raises(UserError, match="not UTF-8"):

@@ -9,7 +9,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.features import FORWARD, ROOT_ROW, YAW_RATE, integrate_root
@@ -102,7 +102,7 @@ def test_nonsense_is_named(tmp_path: Path, text: str, message: str) -> None:
 
 
 def test_a_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="cannot be read"):
+    with pytest.raises(UsageError, match="does not exist; give a"):
         read_timeline(tmp_path / "none.yaml", fps=30.0)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from src.shared.data.captions.tables import Piece, Table, match_captions, read_captions
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 
 
 def write(tmp_path: Path, name: str, text: str) -> Path:
@@ -117,7 +117,7 @@ def test_tables_add_up_and_other_columns_are_no_labels(tmp_path: Path) -> None:
 
 
 def test_a_missing_or_binary_file(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="cannot be read"):
+    with pytest.raises(UsageError, match="does not exist; give a"):
         read_captions(tmp_path / "none.csv")
     (tmp_path / "b.csv").write_bytes(b"\x80\x00\xff\xfe")
     with pytest.raises(UserError, match="UTF-8"):
