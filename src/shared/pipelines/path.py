@@ -296,7 +296,9 @@ def time_path(
         still = int(rest * fps)  # frames
         if seconds is not None:
             moments = _in_seconds(line, moments, seconds - 2 * still / fps)
-        frames = np.linspace(0, moments[-1], max(2, round(moments[-1] * fps) + 1))
+        count = moments[-1] * fps  # of a short way none is lost: it would be faster than asked
+        count = math.ceil(count) if seconds is None and count < fps else round(count)
+        frames = np.linspace(0, moments[-1], max(2, count + 1))
         frames = np.pad(frames, still, mode="edge")
         points = np.stack([np.interp(frames, moments, line[:, axis]) for axis in (0, 1)], axis=1)
         along = np.interp(frames, moments, share)

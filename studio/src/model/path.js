@@ -23,7 +23,8 @@ export function timePath(drawn, { speed = NATURAL, seconds = null, facing = 0 })
   const still = Math.trunc(rest * FPS);
   if (seconds !== null) moments = inSeconds(line, moments, seconds - (2 * still) / FPS);
   const last = moments[moments.length - 1];
-  let frames = linspace(0, last, Math.max(2, round(last * FPS) + 1));
+  const count = last * FPS; // of a short way none is lost: it would be faster than asked
+  let frames = linspace(0, last, Math.max(2, (seconds === null && count < FPS ? Math.ceil(count) : round(count)) + 1));
   frames = [...new Array(still).fill(frames[0]), ...frames, ...new Array(still).fill(last)];
   const [xs, zs] = [line.map((p) => p[0]), line.map((p) => p[1])];
   const points = frames.map((at) => [interpolate(at, moments, xs), interpolate(at, moments, zs)]);

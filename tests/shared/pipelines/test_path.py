@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from src.shared.errors import UsageError, UserError
@@ -170,6 +170,7 @@ def test_a_path_is_followed_at_a_natural_speed(drawn: DrawnPath) -> None:
     st.lists(st.tuples(st.floats(-5, 5), st.floats(-5, 5)), min_size=2, max_size=8),
     st.floats(0.3, 3.5),
 )
+@example([(0.0, -0.11), (-0.1, -0.01)], 2.65)  # .05 s
 def test_any_path_is_gone_smoothly(points: list[tuple[float, float]], speed: float) -> None:
     drawn = DrawnPath(np.array(points))
     if drawn.length < 0.05:
