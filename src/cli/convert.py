@@ -99,8 +99,8 @@ def convert(
     for (task, _), (length, error) in run_jobs(attempt, todo, workers, scheduler):
         job = tasks[task]
         if error is not None:
-            there = job.source.is_file()  # a link that leads nowhere is its own fault alone
-            if len(jobs) + len(kept) == 1 or (there and isinstance(error, UsageError)):
+            beside = str(error).startswith(str(job.source.parent))  # a link that leads nowhere
+            if len(jobs) + len(kept) == 1 or (isinstance(error, UsageError) and not beside):
                 raise error
             complain(f"error: {error}")
             faults.append({"file": str(job.source), "error": str(error)})

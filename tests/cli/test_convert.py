@@ -106,7 +106,9 @@ def test_links_that_lead_nowhere_do_not_stop_the_rest(
     source = tmp_path / "in"
     source.mkdir()
     (source / "walk.npz").write_bytes(walk.read_bytes())
+    (source / "bones.amc").write_text(":FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 0 0 0 0 0\n")
     try:
+        (source / "bones.asf").symlink_to(tmp_path / "nowhere.asf")
         (source / "loop.bvh").symlink_to(source / "loop.bvh")
         (source / "lost.bvh").symlink_to(source / "missing.bvh")
         (source / "again").symlink_to(source)
@@ -115,8 +117,9 @@ def test_links_that_lead_nowhere_do_not_stop_the_rest(
     result = run(source, tmp_path / "out", "--format", "csv", *more)
     assert result.exit_code == 1 and "Traceback" not in result.output
     errors = result.stderr.splitlines()
-    assert len(errors) == 3 and "2 files of 3 could not be converted" in errors[-1]
-    assert "loop.bvh" in errors[0] and "lost.bvh" in errors[1]
+    assert len(errors) == 4 and "3 files of 4 could not be converted" in errors[-1]
+    for name, error in zip(("bones.", "loop.bvh", "lost.bvh"), errors, strict=False):
+        assert name in error
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["walk.csv"]
 
 

@@ -145,7 +145,7 @@ def clauses(
 
     for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
         (pieces, unheard), last = _joined(whole, known, strange), found[-1] if found else None
-        in_row = len(pieces) > 2 and sum(bool(words.manner.search(each)) for each in pieces) > 1
+        in_row = len(re.findall("[てで]、", whole)) > 1
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], known, in_row=in_row) if others else None
@@ -285,8 +285,8 @@ def _ordered(text: str, read: Read) -> list[str]:
                 break
             if bound and not _is_time(text, match, right, read, sure=True):
                 continue
-            inner = match[0].lstrip()[:1] == "," and words.comma.search(right) and bound
-            if inner and not read(_trimmed(left)).surely and (two := _subordinate(right, read)):
+            inner = bound and match[0].lstrip()[:1] == "," and words.named.match(left.strip())
+            if inner and words.comma.search(right) and (two := _subordinate(right, read)):
                 own = f"{left} {two[1].lstrip()}"  # "The actor, after waving, bows."
                 found = (two[0], own) if swapped else (own, two[0])
                 break

@@ -241,6 +241,7 @@ class Words:
         someone += rf"|{CJK_SIGN}{{1,4}})?"
         self.downs = Rare(rf"^{someone}{_any(all_of('downs'))}", all_of("downs"))
         whose = _any(all_of("own"))
+        self.named = re.compile(rf"^{whose}\s*(?:{_LETTER}+\s+)?{_LETTER}+$", re.I)  # somebody
         subject = rf"^(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
         self.subject = re.compile(subject, re.I)
         bends = rf"{_any(all_of('bends'))}(?:\s*{_any(all_of('bending'))})*\W*$"
@@ -279,7 +280,7 @@ class Words:
             tos, verbs_to = table.get("goes_to", []), [*verbs_to, *verbs]
             goals |= {f"{verb} {to}".rstrip(): verbs[verb] for verb in verbs for to in tos or [""]}
             ways.append(rf"{_any(verbs)}\s+{_any(tos)}" if tos else _any(verbs))
-        there = rf"{CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
+        there = rf"(?![左右]){CJK_SIGN}{{1,5}}?{_any(all_of('beside'))}"
         nowhere = _any([*all_of("left"), *all_of("right"), *all_of("nowhere")])
         goal = rf"(?P<way>{'|'.join(ways)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
         self.goal = Rare(goal, verbs_to)

@@ -85,7 +85,7 @@ export class SentenceReader {
     const text = this.staying(plain(this.tidied(sentence))), found = [];
     for (const whole of this.ordered(text)) {
       let last = found.at(-1), { parts: pieces, unheard } = this.joined(whole);
-      const inRow = pieces.length > 2 && pieces.filter((each) => this.first.manner.test(each)).length > 1;
+      const inRow = (whole.match(/[てで]、/gu) ?? []).length > 1;
       while (pieces.length) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0], inRow) : null;
@@ -250,8 +250,8 @@ export class SentenceReader {
           break;
         }
         if (bound && !this.isTime(text, start, right, true)) continue;
-        const inner = bound && text.slice(start, stop).trimStart()[0] === "," && this.first.comma.test(right);
-        const two = inner && !surely(this.read(this.trimmed(left))) && this.subordinate(right);
+        const inner = bound && text.slice(start, stop).trimStart()[0] === "," && this.first.named.test(left.trim());
+        const two = inner && this.first.comma.test(right) && this.subordinate(right);
         if (two) { // "The actor, after waving, bows."
           const own = `${left} ${two[1].trimStart()}`;
           found = swapped ? [two[0], own] : [own, two[0]];
