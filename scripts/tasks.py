@@ -68,7 +68,8 @@ def pytest(marks: str, arguments: list[str]) -> int:
     """Run the tests with these marks, one worker a core."""
     setup.main(["--dev"])
     # One thread a worker: two busy thread pools on two cores slow each other down tenfold.
-    return python("-m", "pytest", "-n", "auto", "-q", "-m", marks, *arguments, threads=1)
+    shared = "-n", "auto", "--dist", "worksteal"  # else one process ends a minute after the others
+    return python("-m", "pytest", *shared, "-q", "-m", marks, *arguments, threads=1)
 
 
 def test(arguments: list[str]) -> int:
