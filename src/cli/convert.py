@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..shared.errors import UsageError, UserError
+from ..shared.errors import MissingFile, UsageError, UserError
 from ..shared.io.files import same_place
 from ..shared.io.storage import Address, Place, fetched, place
 from . import options
@@ -99,8 +99,8 @@ def convert(
     for (task, _), (length, error) in run_jobs(attempt, todo, workers, scheduler):
         job = tasks[task]
         if error is not None:
-            beside = str(error).startswith(str(job.source.parent))  # a link that leads nowhere
-            if len(jobs) + len(kept) == 1 or (isinstance(error, UsageError) and not beside):
+            usage = isinstance(error, UsageError) and not isinstance(error, MissingFile)
+            if len(jobs) + len(kept) == 1 or usage:
                 raise error
             complain(f"error: {error}")
             faults.append({"file": str(job.source), "error": str(error)})

@@ -258,6 +258,13 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
     return told_of_song(request, generator, song, rows, index, selection, clock)
 
 
+def left_out(generator: "MotionGenerator", prompt: str | None) -> str | None:
+    """A line if a dance makes nothing of some words of its sentence."""
+    parts = [] if prompt is None else generator.sentences.clauses(prompt)
+    unheard = [repr(part.unheard) for part in parts if part.unheard]
+    return f"nothing is made of {', '.join(unheard)}" if unheard and len(parts) > 1 else None
+
+
 def dance(request: Request, audio: Path) -> dict[str, Any]:
     """A body that dances to a song."""
     drawn = request.path
@@ -285,6 +292,7 @@ def dance(request: Request, audio: Path) -> dict[str, Any]:
     if (seconds := min(song.seconds, request.seconds or song.seconds)) > LONG_SONG:
         tell(f"{seconds / 60:.0f} minutes of song: this takes a while, --seconds for less")
     lines = generator.text.scope_warnings(said) if said else [None]
+    lines = [line or left_out(generator, each) for line, each in zip(lines, prompts, strict=True)]
     found = [
         generator.dance(
             song,

@@ -44,6 +44,10 @@ class UsageError(UserError):
     exit_code = 2
 
 
+class MissingFile(UsageError):
+    """A file that is to be read does not exist: of many, the fault of that one alone."""
+
+
 def has_words(text: str) -> bool:
     """Whether a text holds a letter or digit: dots and emoji say nothing of a motion."""
     return any(map(str.isalnum, text))

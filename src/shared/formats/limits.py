@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import UsageError, UserError
+from ..errors import MissingFile, UserError
 from ..io.arrays import BadArray, load_array, load_arrays
 from ..io.arrays import array_names as names_of
 
@@ -46,13 +46,13 @@ def check_size(path: Path, max_bytes: int = MAX_BYTES) -> int:
     """Bytes of a file.
 
     Raises:
-        UsageError: it does not exist.
+        MissingFile: it does not exist.
         UserError: not a plain file, unreadable, empty or too large.
     """
     try:
         size = path.stat().st_size
     except FileNotFoundError:
-        raise UsageError(f"{path} does not exist; check the name") from None
+        raise MissingFile(f"{path} does not exist; check the name") from None
     except (OSError, ValueError) as error:  # ValueError: a zero byte in the name
         reason = getattr(error, "strerror", None) or error
         raise UserError(
@@ -81,7 +81,7 @@ def readable(path: Path, what: str = "file") -> Iterator[None]:
     try:
         yield
     except FileNotFoundError:
-        raise UsageError(f"{path} does not exist; check the name") from None
+        raise MissingFile(f"{path} does not exist; check the name") from None
     except OSError as error:
         raise UserError(
             f"{path}: cannot be read: {error.strerror or error}; name a {what} that may be read"

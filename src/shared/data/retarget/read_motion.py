@@ -1,6 +1,7 @@
 """Any motion file in: one function from a path to a Motion, one that tells what a file holds."""
 
 from dataclasses import dataclass, replace
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -189,7 +190,7 @@ def read_motion(
         UserError: damaged, too large, of no known format, or with joints that no profile
             maps; names the file, the place and the remedy.
     """
-    if not isinstance(path, str | Path):
+    if not isinstance(path, str | PathLike):
         raise UsageError(f"path is {path!r}; give the path of a motion file")
     for name, rate in (("fps", fps), ("source_fps", source_fps)):
         if rate is not None:
