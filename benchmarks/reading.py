@@ -5,9 +5,9 @@
 A sentence is read if it is one clause and its nearest action is the one it asks for; a spin may be
 read as a turn, and waves and goodbyes are one gesture. None of the sentences is one of training or
 of `evaluate-requests`. Those of another hand (other_hand.tsv, by somebody who had seen neither) are
-read if they come apart as they are meant: sequences, and orders, which say what comes first in many
-ways, into their actions, in order (a turn may be a walked corner or a spin and a jog a run), two
-things at once into two, styled walks into one walk.
+read if they come apart as they are meant: sequences, and orders and later ones, which say in many
+ways what comes first, into their actions, in order (a turn may be a walked corner or a spin and a
+jog a run), two things at once into two, styled walks into one walk.
 """
 
 import argparse

@@ -9,9 +9,11 @@ import pytest
 import soundfile
 from typer.testing import CliRunner
 
+from src.cli.generate import left_out
 from src.cli.tools import app
 from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.formats.arrays import read_npz
+from src.shared.pipelines.motion_generator import MotionGenerator
 from tests.shared.evaluation.tiny_pairs import tiny_model
 from tests.shared.formats.pages import Page, array
 from tests.shared.model.conftest import tiny_generator
@@ -164,3 +166,10 @@ def test_a_body_needs_a_song() -> None:
     for extra in (("--body",), ("--body-model", "starter"), ("--follow-path",)):
         result = runner.invoke(app, ["generate", *PROMPT, *extra])
         assert result.exit_code == 2 and extra[0] in result.stderr
+
+
+def test_what_a_dance_leaves_out_is_told() -> None:
+    starter = MotionGenerator.from_pretrained("starter", device="cpu", runtime="onnx")
+    assert left_out(starter, "he walks, swims and dances") == "nothing is made of 'swims'"
+    for heard in ("a person dances, then bows", "a person dances and picks up a coin", None):
+        assert left_out(starter, heard) is None  # of one clause the whole sentence is heard
