@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[1] / "src"
-ERRORS = ("UserError", "UsageError", "EmptySplit")
+ERRORS = ("UserError", "UsageError", "MissingFile", "EmptySplit")
 HOLE = "{}"  # where a value is put in
 
 
@@ -31,7 +31,7 @@ class Message:
 
 
 def messages() -> Iterator[Message]:
-    """All places that call `UserError` or `UsageError`."""
+    """All places that call one of ERRORS."""
     for path in sorted(SOURCE.rglob("*.py")):
         tree = ast.parse(path.read_text(encoding="utf-8"))
         for node in ast.walk(tree):
