@@ -10,10 +10,12 @@ from itertools import pairwise
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
+import numpy as np
 import pytest
 from packaging.requirements import Requirement
 
 from src.shared.config_loader import load_network, load_train, split_network_overrides
+from src.shared.motion.skeleton import JOINT_INDEX
 
 ROOT = Path(__file__).parent.parent
 
@@ -259,3 +261,47 @@ def test_cmus_own_index_becomes_captions() -> None:
         "133_14\tWalk Left\tinfant",
     ]
     assert list(load("cmu_captions").rows(text, ["133"])) == [found[0], found[2]]
+
+
+# ---------------------------------------------------------------- clips of gestures
+
+
+@pytest.fixture(scope="module")
+def gestures() -> ModuleType:
+    """The script that makes clips of actions that no capture covers."""
+    return load("gesture_clips")
+
+
+def test_clips_of_gestures_come_with_a_table(gestures: ModuleType, tmp_path: Path) -> None:
+    command = [sys.executable, str(ROOT / "scripts" / "gesture_clips.py"), str(tmp_path)]
+    subprocess.run([*command, "--each", "2", "--actions", "nod,point"], check=True)
+    lines = (tmp_path / "clips.tsv").read_text(encoding="utf-8").splitlines()
+    rows = [line.split("\t") for line in lines]
+    assert rows[0] == ["file", "action", "side", "direction", "provenance"]
+    assert [row[1] for row in rows[1:]] == ["nod"] * 2 + ["point"] * 6
+    assert {row[2] for row in rows[3:]} == {"", "left", "right"}
+    for row in rows[1:]:
+        assert (tmp_path / f"{row[0]}.bvh").read_text().count("Frames: ") == 1
+
+
+def test_all_gestures_stand_on_the_ground_and_move(gestures: ModuleType) -> None:
+    for action, (_, short, long, kinds) in gestures.ACTIONS.items():
+        for labels in kinds:
+            first, last = (gestures.make(action, labels, n, 24, 0) for n in (0, 23))
+            assert (first.num_frames, last.num_frames) == (round(30 * short), round(30 * long))
+            joints = first.positions()
+            lowest = float(joints[..., 1].min())
+            assert -0.03 < lowest < 0.06, (action, lowest)
+            way = np.linalg.norm(np.diff(joints, axis=0), axis=-1).sum(0).max()
+            assert way > 0.15, (action, way)  # metres of the joint that goes furthest
+
+
+def test_a_nod_is_as_large_as_a_nod(gestures: ModuleType) -> None:
+    """The neck goes down by 10 to 40 degrees, twice at least in two seconds."""
+    motion = gestures.make("nod", {}, 0, 24, 0)
+    joints = motion.positions()
+    way = joints[:, JOINT_INDEX["head"]] - joints[:, JOINT_INDEX["neck"]]
+    down = np.degrees(np.arctan2(way[:, 2], way[:, 1]))
+    down -= down[0]
+    assert 10 < down.max() < 40  # the head itself as far again
+    assert ((down[1:-1] > down[:-2]) & (down[1:-1] >= down[2:]) & (down[1:-1] > 8)).sum() >= 2

@@ -26,7 +26,7 @@ from ..shared.model.clip.core import (
     counted_keys,
     keys_of,
 )
-from ..shared.model.clip.out_of_domain import OFTENER
+from ..shared.model.clip.out_of_domain import MANY, OFTENER
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from .run_log import announce
 from .task import generator, numpy_generator
@@ -133,9 +133,11 @@ def _combination(labels: Labels) -> Combination:
 
 OLD_CAPTIONS = 16  # of each known action and language
 TOLD_EVERY = 100  # steps of the tower
-TOWER_BATCH = 256  # sentences: half of them new, a quarter each of what it knew and of neither
+TOWER_BATCH = 320  # sentences: two fifths new, as many of what it knew, a fifth of neither
 TOWER_RATE = 5e-2
-PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little
+PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little;
+PULLED = 3500  # less of more captions than these, as each is then seen less often
+KEEPING = 3.0  # weight of what the old sentences asked for beside what the new ones ask for
 NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
 BABBLE = 0.3  # share of new captions with made-up words in them
 
@@ -193,13 +195,16 @@ def with_new_places(
     mine = set(own)
     old = [text for text in old if text not in mine]
     every = torch.cat([tower.place_keys(), places])  # [P + N, D]
-    telling = _telling(tokenizer(own)[0], tokenizer(old)[0])
+    others = [text for text in outside if text not in mine]
+    said = [tokenizer(list(texts))[0] for texts in captions]
+    telling = _telling(said, tokenizer(old + others)[0])
+    pull = PULL * min(1.0, PULLED / len(own))
     student = _extended(tower, telling).requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)
     learning = pad(torch.isin(student.encoder.keys, telling).float(), (0, 1))  # [rows]
+    fade = (1 - (1 - pull) * learning)[:, None]
     rows = student.encoder.rows.weight.requires_grad_(True)
     start = rows.detach().clone()
-    others = [text for text in outside if text not in mine]
 
     def touched(texts: list[str]) -> list[str]:
         """Those of whose rows any learns: all others keep their embeddings whatever is learned."""
@@ -210,7 +215,7 @@ def with_new_places(
 
     old, others = touched(old) or old, touched(others) or others
     near, far = range(len(old)), range(len(old), len(old) + len(others))
-    pools = [(range(len(own)), 2), (near or far, 1), (far or near, 1)]
+    pools = [(range(len(own)), 2), (near or far, 2), (far or near, 1)]
     old += others
     with torch.no_grad():
         taught = torch.cat(
@@ -221,7 +226,7 @@ def with_new_places(
     learner = torch.optim.Adam([rows], lr=TOWER_RATE)
     rng = numpy_generator("tower", seed)
     draws = generator("tower", seed)
-    part = TOWER_BATCH // 4
+    part = TOWER_BATCH // 5
     with torch.random.fork_rng():
         torch.manual_seed(seed)
         for step in range(steps):
@@ -238,7 +243,7 @@ def with_new_places(
             scores = PLACE_SCALE * found @ every.T  # [TOWER_BATCH, P + N]
             wanted = row[news] + len(every) - len(places)
             loss = cross_entropy(scores[: 2 * part], wanted)
-            loss = loss + kl_div(
+            loss = loss + KEEPING * kl_div(
                 scores[2 * part :].log_softmax(-1), shares[olds], reduction="batchmean"
             )
             aims = torch.cat([places[row[news]], taught[olds]])
@@ -247,7 +252,7 @@ def with_new_places(
             loss.backward()  # type: ignore[no-untyped-call]
             learner.step()
             with torch.no_grad():
-                rows.copy_(start + (1 - PULL) * learning[:, None] * (rows - start))
+                rows.lerp_(start, fade)
     answers = torch.cat([tower.get_buffer("places").float(), places])  # [P + N, D]
     return with_places(student, answers, every if tower.config.text_place_keys else None)
 
@@ -261,13 +266,20 @@ def pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -
     return normalize(tower.text_proj(mean), dim=-1)
 
 
-def _telling(own: Tensor, old: Tensor) -> Tensor:
-    """Keys that are OFTENER times as frequent in new captions (ids [N,L]) as in old ones [M,L]."""
-    keys, counts = counted_keys([own])
+def _telling(captions: Sequence[Tensor], old: Tensor) -> Tensor:
+    """Keys that are OFTENER times as frequent in the new captions (N of ids [M,L]) of one place as
+    in other sentences [M,L], and stand in more than one of MANY: what one tells a story of is no
+    action."""
     known, others = counted_keys([old])
-    at = torch.searchsorted(known, keys).clamp(max=len(known) - 1)
-    elsewhere = torch.where(known[at] == keys, others[at], 0) / len(old)
-    return keys[counts / len(own) >= OFTENER * elsewhere]
+    found: list[Tensor] = []
+    for own in captions:
+        keys, counts = counted_keys([own])
+        at = torch.searchsorted(known, keys).clamp(max=len(known) - 1)
+        elsewhere = torch.where(known[at] == keys, others[at], 0) / len(old)
+        often = counts / len(own) >= OFTENER * elsewhere
+        found.append(keys[often & (counts > len(own) / MANY)])
+    every: Tensor = torch.cat(found).unique()  # type: ignore[no-untyped-call]
+    return every
 
 
 def _extended(tower: TextTower, keys: Tensor) -> TextTower:

@@ -42,6 +42,7 @@ TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
 OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
+MANY = 200  # captions of a new action, of which a word of one tells a story
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
@@ -218,9 +219,9 @@ class OutOfDomainDetector:
         telling = {
             word: math.log(2 / (1 + share[word] * len(texts) / number))
             for word, number in here.items()
-            if number / len(texts) >= OFTENER * share[word]
+            if number / len(texts) >= OFTENER * share[word] and number > len(texts) / MANY
         }
-        key_words = dict(self.key_words)
+        key_words, often = dict(self.key_words), {w for w in here if here[w] > len(texts) / MANY}
         for word, _ in sorted(_cover(texts, telling, max(COVERAGES))):
             key_words[word] = (*key_words.get(word, ()), len(self.actions))
         place = _unit(embeddings.mean(axis=0))[None].astype(np.float32)
@@ -228,7 +229,7 @@ class OutOfDomainDetector:
             self,
             actions=(*self.actions, action),
             key_words=key_words,
-            words=self.words.union(*texts),
+            words=self.words | often,
             means=np.concatenate((self.means, place)),
             captions={
                 **dict.fromkeys(map(caption_key, captions), len(self.actions)),

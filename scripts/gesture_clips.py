@@ -1,0 +1,776 @@
+#!/usr/bin/env python3
+"""Make clips of actions that no free capture of ours covers: nods, throws, jumping jacks ...
+
+    python scripts/gesture_clips.py OUT [--each 24] [--seed 0] [--actions nod,throw]
+
+OUT gets BVH files and a captions table, `clips.tsv`, for `motion-tools prepare OUT --captions
+OUT/clips.tsv`; its words are the project's own (src/configs). The clips are made by rule, as those
+of `--synthetic` are, and say so (`provenance`). What happens when follows from the length of the
+clip alone, so that an adapter of few clips has nothing to average over: its motions stay as large
+and as fast as these (docs/experiments.md, section 68).
+
+T frames; arms are given by where the wrist is: metres from the shoulder, outward, up and ahead of
+the chest.
+"""
+
+import argparse
+import csv
+import sys
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import torch
+from scipy.optimize import least_squares
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from src.shared.data.synthetic.actions import pose_arm
+from src.shared.data.synthetic.clips import spec_for
+from src.shared.data.synthetic.rig import (
+    ELBOW,
+    FLEX,
+    FPS,
+    LEFT,
+    PRONATE,
+    RIGHT,
+    Array,
+    Body,
+    Scene,
+    bump,
+    keyframes,
+    min_jerk,
+    ramp,
+    rotation,
+    solve,
+)  # fmt: skip
+from src.shared.formats.registry import write_motion
+from src.shared.motion.motion import Motion
+from src.shared.motion.rotations import quaternion_multiply
+from src.shared.motion.skeleton import JOINT_INDEX
+
+UPPER, FORE = 0.26, 0.25  # metres from shoulder to elbow and on to the wrist
+REST = 0.25  # seconds at rest before and after
+Keys = tuple[tuple[float, float], ...]
+
+
+# ------------------------------------------------------------ arms by where the hand is
+
+
+def _arm(angles: Array) -> tuple[Array, Array]:
+    """Elbow and wrist from the shoulder, metres outward, up, ahead (the collar's share aside)."""
+    flex, abduct, twist, elbow = (np.array([value]) for value in angles)
+    upper = rotation(0, -flex) @ rotation(2, abduct) @ rotation(1, twist)
+    upper = (upper @ rotation(2, np.array([-np.pi / 2])))[0]
+    fore = upper @ rotation(1, -elbow)[0]
+    at = upper @ np.array([UPPER, 0, 0])
+    return at, at + fore @ np.array([FORE, 0, 0])
+
+
+@cache
+def reach(
+    out: float, up: float, ahead: float, elbow: tuple[float, float, float]
+) -> dict[str, float]:
+    """Arm angles in degrees that put the wrist there, the elbow as near to `elbow` as it goes."""
+    wrist, prefer = np.array([out, up, ahead]), np.array(elbow)
+
+    def miss(angles: Array) -> Array:
+        at, end = _arm(angles)
+        near = at / UPPER - prefer / np.linalg.norm(prefer)
+        return np.concatenate([8 * (end - wrist), 0.3 * near, 0.02 * angles])
+
+    starts = [
+        (0.3, 0.2, -0.2, 0.8),
+        (1.4, 0.3, 0.0, 0.6),
+        (0.5, 1.3, 1.2, 1.5),
+        (-0.3, 0.5, 0, 1.2),
+    ]
+    bounds = ([-1.2, -0.5, -1.8, 0.02], [3.1, 2.9, 2.0, 2.65])
+    found = min(
+        (least_squares(miss, start, bounds=bounds) for start in starts), key=lambda f: f.cost
+    )
+    return dict(zip(("flex", "abduct", "twist", "elbow"), np.degrees(found.x), strict=True))
+
+
+DOWN, OUT, BACK, UP = (0.25, -1.0, 0.2), (1.0, -0.35, 0.1), (0.3, -0.7, -0.8), (0.7, 0.6, 0.3)
+
+
+def hand(
+    body: Body, side: int, weight: Array, at: tuple[float, float, float],
+    elbow: tuple[float, float, float] = DOWN, pronate: float = 20.0, wrist: float = 0.0,
+) -> None:  # fmt: skip
+    """Bring a hand there, by `weight` [T]."""
+    pose_arm(body, side, weight, **reach(*at, elbow), pronate=pronate, wrist=wrist)
+
+
+# ------------------------------------------------------------ time
+
+
+def end_of(scene: Scene) -> float:
+    """The time of the last frame in seconds."""
+    return float(scene.t[-1])
+
+
+def held(scene: Scene, rise: float, fall: float | None = None, at: float = REST) -> Array:
+    """0, up within `rise` seconds, and down before the end."""
+    fall = rise if fall is None else fall
+    up: Array = ramp(scene.t, at, rise)
+    up *= 1 - ramp(scene.t, end_of(scene) - REST - fall, fall)
+    return up
+
+
+def beats(scene: Scene, period: float, rise: float) -> tuple[Array, float]:
+    """Phase [T] of whole cycles between rise and fall, 0 before and N after, and N."""
+    start, room = REST + rise, end_of(scene) - 2 * (REST + rise)
+    number = max(1, round(room / period))
+    return np.clip((scene.t - start) / max(room, 0.3), 0, 1) * number, number
+
+
+def moment(scene: Scene, *keys: tuple[float, float], length: float) -> Array:
+    """Keys of (seconds, value) of something that takes `length` seconds, in the clip's middle."""
+    late = max(0.0, (end_of(scene) - length) / 2)
+    return keyframes(scene.t, [(late + at, value) for at, value in keys])
+
+
+def sign_of(side: int) -> float:
+    """1 for the left, which lies at positive x."""
+    return 1.0 if side == LEFT else -1.0
+
+
+def side_of(scene: Scene) -> int:
+    """The side that the labels name, else the right."""
+    return LEFT if scene.labels.get("side") == "left" else RIGHT
+
+
+def other(side: int) -> int:
+    """The other side."""
+    return RIGHT if side == LEFT else LEFT
+
+
+# ------------------------------------------------------------ trunk and legs
+
+
+def lean(
+    body: Body, ahead: Array | float = 0.0, turn: Array | float = 0.0, aside: Array | float = 0.0
+) -> None:
+    """Bend the trunk by degrees: ahead, to the left, left side up; half of it from the hips."""
+    body.spine[:, 0] += np.radians(0.6 * np.asarray(ahead))
+    body.pitch[:] += np.radians(0.4 * np.asarray(ahead))
+    body.position[:, 2] -= 0.0022 * np.asarray(ahead)
+    body.spine[:, 1] += np.radians(turn)
+    body.spine[:, 2] += np.radians(0.7 * np.asarray(aside))
+    body.roll[:] += np.radians(0.3 * np.asarray(aside))
+
+
+def nod_by(
+    body: Body, down: Array | float = 0.0, turn: Array | float = 0.0, aside: Array | float = 0.0
+) -> None:
+    """Move the head by degrees."""
+    for axis, value in enumerate((down, turn, aside)):
+        body.head[:, axis] += np.radians(value)
+
+
+def sink(body: Body, depth: Array, back: float = 0.3) -> None:
+    """Bend the knees: the pelvis goes `depth` metres [T] down and a little back."""
+    body.position[:, 1] -= depth
+    body.position[:, 2] -= back * depth
+    body.knee_out[:] += np.minimum(0.6 * depth, 0.3)[:, None]
+
+
+def step(
+    scene: Scene,
+    body: Body,
+    side: int,
+    aside: float,
+    ahead: float,
+    at: float,
+    seconds: float = 0.36,
+) -> None:
+    """Move one foot by metres, through the air, and half of that the pelvis."""
+    share = (scene.t - at) / seconds
+    gone, flying = min_jerk(share), (share > 0) & (share < 1)
+    body.ball[:, side, 0] += aside * gone
+    body.ball[:, side, 2] += ahead * gone
+    body.ball[:, side, 1] += 0.07 * bump(share)
+    body.foot_pitch[:, side] -= 0.25 * bump(share)
+    body.contacts[flying, side] = 0.0
+    body.position[:, 0] += 0.5 * aside * gone
+    body.position[:, 2] += 0.5 * ahead * gone
+
+
+def stance(scene: Scene, body: Body, side: int, back: float, stay: bool = False) -> None:
+    """One foot goes back to stand in step, and comes again before the end."""
+    step(scene, body, side, 0.04 * sign_of(side), -back, REST)
+    if not stay:
+        step(scene, body, side, -0.04 * sign_of(side), back, end_of(scene) - REST - 0.36)
+
+
+def quiver(scene: Scene, hertz: float) -> Array:
+    """A sine wave [T]."""
+    return np.sin(2 * np.pi * hertz * scene.t)
+
+
+# ------------------------------------------------------------ actions of head and arms
+
+
+def nod(scene: Scene) -> Body:
+    """Yes: the head goes down and up again, all clip long."""
+    body, size = scene.standing(), scene.params["amplitude"]
+    phase, _ = beats(scene, 0.62 / scene.params["tempo"], 0.1)
+    down = (1 - np.cos(2 * np.pi * phase)) / 2
+    nod_by(body, 27 * size * down)
+    lean(body, 3 * size * down)
+    return body
+
+
+def shake_head(scene: Scene) -> Body:
+    """No: the head turns from side to side."""
+    body, size = scene.standing(), scene.params["amplitude"]
+    phase, _ = beats(scene, 0.72 / scene.params["tempo"], 0.15)
+    nod_by(body, 4 * held(scene, 0.3), 36 * size * np.sin(2 * np.pi * phase))
+    lean(body, turn=3 * size * np.sin(2 * np.pi * phase))
+    return body
+
+
+def talk(scene: Scene) -> Body:
+    """Both hands underline in turn what is said."""
+    body, up = scene.standing(), held(scene, 0.6)
+    phase, _ = beats(scene, 1.15 / scene.params["tempo"], 0.5)
+    size = scene.params["amplitude"]
+    for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
+        out = (1 - np.cos(2 * np.pi * (phase + late))) / 2
+        hand(body, side, up, (0.0, -0.20, 0.30), pronate=-20)
+        hand(body, side, up * out * size * 0.8, (0.22, -0.04, 0.30), pronate=-60)
+    nod_by(body, 5 * np.sin(4 * np.pi * phase) * up, 9 * np.sin(2 * np.pi * phase) * up)
+    lean(body, 3 * up, 4 * np.sin(2 * np.pi * phase) * up)
+    return body
+
+
+def shiver(scene: Scene) -> Body:
+    """Huddled, arms around the body, trembling."""
+    body, up = scene.standing(width=0.15), held(scene, 0.7)
+    for side, height in ((LEFT, 0.0), (RIGHT, -0.06)):
+        hand(body, side, up, (-0.30, -0.06 + height, 0.17), elbow=(0.1, -1, 0.5))
+    cold = quiver(scene, 6) * up
+    lean(body, 16 * up, 1.2 * cold)
+    nod_by(body, 12 * up, 2.5 * cold)
+    sink(body, 0.045 * up)
+    body.add_arms(FLEX, np.radians(2.5) * cold)
+    body.knee_out[:] -= (0.18 * up + 0.03 * cold)[:, None]
+    return body
+
+
+def laugh(scene: Scene) -> Body:
+    """Hands on the belly; bent forward and back, shaking."""
+    body, up = scene.standing(), held(scene, 0.6)
+    phase, _ = beats(scene, 2.2, 0.4)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.13, -0.28, 0.17), elbow=(0.7, -1, 0.0))
+    ha = quiver(scene, 4.0) * up
+    bent = (1 - np.cos(2 * np.pi * phase)) / 2
+    lean(body, (12 + 20 * bent) * up + 2.5 * ha)
+    nod_by(body, -26 * (1 - bent) * up + 14 * bent * up + 3 * ha)
+    body.arms[..., FLEX] += (np.radians(2.5) * ha)[:, None]
+    sink(body, (0.02 + 0.05 * bent) * up + 0.006 * ha)
+    return body
+
+
+def dab(scene: Scene) -> Body:
+    """Face into the bent right arm, the left one stretched out."""
+    body, up = scene.standing(width=0.28), held(scene, 0.45)
+    hand(body, RIGHT, up, (-0.25, 0.20, 0.20), elbow=(0.35, 0.35, 0.9), wrist=0)
+    hand(body, LEFT, up, (0.42, 0.26, 0.04), elbow=UP, pronate=0)
+    lean(body, 14 * up, 16 * up, 9 * up)
+    nod_by(body, 34 * up, -24 * up, -14 * up)
+    sink(body, 0.06 * up)
+    return body
+
+
+def cast_spell(scene: Scene) -> Body:
+    """Both hands are gathered at the side and thrown ahead."""
+    body, length = scene.standing(), 2.5
+    keys: Keys = ((0.0, 0), (0.7, 1), (1.15, 1), (1.4, 0), (9, 0))
+    gather = moment(scene, *keys, length=length)
+    out = moment(scene, (1.15, 0), (1.38, 1), (1.9, 1), (2.5, 0), length=length)
+    for side in (LEFT, RIGHT):
+        hand(body, side, gather, (-0.05, -0.22, 0.14), elbow=BACK, pronate=60)
+        hand(body, side, out, (-0.06, 0.02, 0.49), elbow=DOWN, pronate=60, wrist=-65)
+    lean(body, -7 * gather + 14 * out, -30 * gather)
+    nod_by(body, 0, 20 * gather)
+    sink(body, 0.07 * gather + 0.09 * out, back=0.0)
+    body.position[:, 2] += 0.05 * out - 0.03 * gather
+    return body
+
+
+def press_button(scene: Scene) -> Body:
+    """A finger goes ahead, presses, comes back."""
+    body, side, length = scene.standing(), side_of(scene), 1.9
+    up = moment(scene, (0, 0), (0.7, 1), (1.2, 1), (1.9, 0), length=length)
+    press = moment(scene, (0.75, 0), (0.92, 1), (1.12, 0), length=length)
+    hand(body, side, up, (-0.04, -0.02, 0.40), elbow=DOWN, pronate=60)
+    hand(body, side, up * press, (-0.06, -0.02, 0.49), elbow=DOWN, pronate=60)
+    lean(body, 3 * up + 4 * press, -sign_of(side) * 10 * up)
+    nod_by(body, 8 * up)
+    return body
+
+
+def salute(scene: Scene) -> Body:
+    """The right hand at the brow."""
+    body, up = scene.standing(width=0.14), held(scene, 0.5)
+    hand(body, RIGHT, up, (0.03, 0.17, 0.13), elbow=(1.0, 0.0, 0.35), pronate=50)
+    lean(body, -4 * up)
+    nod_by(body, -3 * up)
+    return body
+
+
+def shrug(scene: Scene) -> Body:
+    """Shoulders and open hands go up (`make` turns the collar bones)."""
+    body, up = scene.standing(), shrugged(scene)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (0.22, -0.17, 0.20), elbow=(0.5, -1, -0.1), pronate=-90)
+    nod_by(body, -3 * up, 0, 11 * up)
+    lean(body, 3 * up)
+    return body
+
+
+def shrugged(scene: Scene) -> Array:
+    """How far the shoulders are up [T]: twice in a long clip."""
+    phase, _ = beats(scene, 1.5, 0.0)
+    up: Array = bump(np.minimum(phase % 1.0 / 0.85, 1.0))
+    up *= phase < phase.max()
+    return up
+
+
+def point(scene: Scene) -> Body:
+    """The arm stretched ahead."""
+    body, side = scene.standing(), side_of(scene)
+    up = held(scene, 0.55)
+    hand(body, side, up, (-0.03, 0.05, 0.50), elbow=(0.3, -1, 0.6), pronate=60)
+    lean(body, 3 * up, -sign_of(side) * 14 * up)
+    nod_by(body, 0, sign_of(side) * 10 * up)
+    return body
+
+
+def cross_arms(scene: Scene) -> Body:
+    """Forearms before the chest."""
+    body, up = scene.standing(), held(scene, 0.75)
+    hand(body, RIGHT, up, (-0.29, -0.13, 0.23), elbow=(0.2, -1, 0.35), pronate=30)
+    hand(body, LEFT, up, (-0.30, -0.18, 0.16), elbow=(0.2, -1, 0.35), pronate=30)
+    lean(body, -3 * up)
+    return body
+
+
+def hands_on_hips(scene: Scene) -> Body:
+    """Both hands at the hips, elbows out."""
+    body, up = scene.standing(width=0.26), held(scene, 0.65)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.03, -0.35, 0.03), elbow=(1.0, -0.6, -0.35), pronate=60)
+    lean(body, -4 * up)
+    return body
+
+
+def cover_face(scene: Scene) -> Body:
+    """Both hands before the face, the head down."""
+    body, up = scene.standing(), held(scene, 0.65)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.13, 0.14, 0.17), elbow=(0.1, -0.9, 0.6), pronate=0)
+    sob = np.sin(2 * np.pi * beats(scene, 0.7, 0.6)[0]) * up
+    lean(body, 14 * up + 2 * sob)
+    nod_by(body, 26 * up + 3 * sob)
+    sink(body, 0.02 * up)
+    return body
+
+
+def blow_kiss(scene: Scene) -> Body:
+    """The hand from the mouth ahead."""
+    body, length = scene.standing(), 2.5
+    up = moment(scene, (0, 0), (0.7, 1), (1.8, 1), (2.5, 0), length=length)
+    away = moment(scene, (1.0, 0), (1.45, 1), (1.8, 1), (2.5, 1), length=length)
+    hand(body, RIGHT, up * (1 - away), (-0.14, 0.13, 0.14), elbow=(0.5, -1, 0.3), pronate=30)
+    hand(body, RIGHT, up * away, (0.06, 0.12, 0.46), elbow=DOWN, pronate=-80)
+    nod_by(body, (8 - 12 * away) * up)
+    lean(body, 7 * away * up, (6 - 4 * away) * up)
+    return body
+
+
+def hug(scene: Scene) -> Body:
+    """Arms wide, then around somebody."""
+    body, up = scene.standing(), held(scene, 0.8)
+    close = held(scene, 0.75, at=REST + 0.75) * up
+    for side, height in ((LEFT, 0.05), (RIGHT, -0.07)):
+        pose_arm(body, side, up, flex=58, abduct=52, twist=0, elbow=26, pronate=0)
+        hand(body, side, close, (-0.24, height, 0.32), elbow=(0.8, -0.3, 0.8), pronate=20)
+    sway = np.sin(2 * np.pi * beats(scene, 1.8, 1.2)[0]) * close
+    lean(body, 5 * up + 6 * close, 0, 3 * sway)
+    nod_by(body, 0, 14 * close, 8 * close)
+    return body
+
+
+def stretch(scene: Scene) -> Body:
+    """Both hands overhead, on the toes, and to each side."""
+    body, up = scene.standing(width=0.26), held(scene, 1.0)
+    phase = np.clip((scene.t - REST - 1.0) / max(end_of(scene) - 2 * REST - 2.0, 0.5), 0, 1)
+    bow_aside = np.sin(2 * np.pi * phase) * up
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.10, 0.50, 0.0), elbow=(0.7, 0.8, 0.2), pronate=0)
+    lean(body, -11 * up, 0, 15 * bow_aside)
+    nod_by(body, -16 * up)
+    heel = 0.045 * up * (1 - np.abs(bow_aside))
+    body.position[:, 1] += heel
+    body.foot_pitch[:] -= (9 * heel)[:, None]
+    return body
+
+
+def check_watch(scene: Scene) -> Body:
+    """The left wrist before the eyes."""
+    body, up = scene.standing(), held(scene, 0.6)
+    hand(body, LEFT, up, (-0.14, -0.07, 0.27), elbow=(1.0, -0.5, 0.3), pronate=80)
+    nod_by(body, 30 * up, 4 * up)
+    lean(body, 5 * up)
+    return body
+
+
+def pray(scene: Scene) -> Body:
+    """Palms together, the head bowed."""
+    body, up = scene.standing(width=0.14), held(scene, 0.75)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.17, 0.0, 0.21), elbow=(0.8, -0.9, 0.1), pronate=0, wrist=-35)
+    lean(body, 8 * up)
+    nod_by(body, 20 * up)
+    return body
+
+
+# ------------------------------------------------------------ with a thing in the hand
+
+
+def pull_lever(scene: Scene) -> Body:
+    """A hand from above the shoulder down to the hip."""
+    body, length = scene.standing(width=0.26), 2.4
+    up = moment(scene, (0, 0), (0.75, 1), (1.75, 1), (2.4, 0), length=length)
+    pull = moment(scene, (0.85, 0), (1.45, 1), (1.75, 1), (2.4, 0.6), length=length)
+    hand(body, RIGHT, up, (-0.04, 0.24, 0.36), elbow=DOWN, pronate=60)
+    hand(body, RIGHT, up * pull, (0.02, -0.32, 0.20), elbow=BACK, pronate=60)
+    lean(body, (7 + 10 * pull) * up, (14 - 22 * pull) * up)
+    sink(body, 0.09 * pull * up)
+    return body
+
+
+def open_door(scene: Scene) -> Body:
+    """A knob turned, a door pulled and passed by."""
+    body, length = scene.standing(), 2.7
+    up = moment(scene, (0, 0), (0.75, 1), (2.0, 1), (2.7, 0), length=length)
+    knob = moment(scene, (0.75, 0), (1.0, 1), (1.9, 1), (2.1, 0), length=length)
+    pull = moment(scene, (1.05, 0), (1.8, 1), (2.05, 1), (2.7, 0.5), length=length)
+    hand(body, RIGHT, up, (-0.06, -0.24, 0.40), elbow=DOWN, pronate=30)
+    hand(body, RIGHT, up * pull, (0.30, -0.24, 0.10), elbow=BACK, pronate=30)
+    body.arms[:, RIGHT, PRONATE] -= np.radians(65) * knob
+    lean(body, 6 * up * (1 - pull), (10 - 32 * pull) * up)
+    nod_by(body, 8 * up, 12 * pull * up)
+    step(scene, body, RIGHT, 0.05, -0.24, max(0.0, (end_of(scene) - length) / 2) + 1.2)
+    return body
+
+
+def hammer(scene: Scene) -> Body:
+    """The right hand strikes what the left holds."""
+    body, up = scene.standing(width=0.26), held(scene, 0.6)
+    phase, _ = beats(scene, 0.85 / scene.params["tempo"], 0.5)
+    share = phase % 1.0
+    high = np.where(share < 0.6, min_jerk(share / 0.6), 1 - min_jerk((share - 0.6) / 0.25))
+    hand(body, LEFT, up, (-0.10, -0.30, 0.28), elbow=DOWN)
+    hand(body, RIGHT, up, (-0.08, -0.22, 0.34), elbow=DOWN, pronate=0)
+    hand(body, RIGHT, up * high, (0.16, 0.22, 0.14), elbow=(0.8, 0.2, 0.4), pronate=0)
+    lean(body, (16 - 9 * high) * up, -7 * high * up)
+    nod_by(body, 14 * up)
+    return body
+
+
+def chop(scene: Scene) -> Body:
+    """Both hands from behind the head down to the ground."""
+    body, up = scene.standing(width=0.42), held(scene, 0.6)
+    phase, _ = beats(scene, 1.75 / scene.params["tempo"], 0.5)
+    share = phase % 1.0
+    high = np.where(share < 0.62, min_jerk(share / 0.62), 1 - min_jerk((share - 0.64) / 0.17))
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.14, -0.30, 0.36), elbow=DOWN)
+        hand(body, side, up * high, (-0.13, 0.42, -0.02), elbow=(0.5, 0.8, 0.5))
+    lean(body, (46 - 56 * high) * up)
+    nod_by(body, 6 * up)
+    sink(body, 0.16 * (1 - high) * up)
+    return body
+
+
+def stab(scene: Scene) -> Body:
+    """A lunge with the right hand ahead."""
+    body, length = scene.standing(), 2.2
+    late = max(0.0, (end_of(scene) - length) / 2)
+    back = moment(scene, (0, 0), (0.6, 1), (0.75, 1), (0.95, 0), length=length)
+    out = moment(scene, (0.75, 0), (0.95, 1), (1.25, 1), (2.0, 0), length=length)
+    hand(body, RIGHT, back, (0.06, -0.22, -0.06), elbow=BACK, pronate=60)
+    hand(body, RIGHT, out, (-0.10, -0.02, 0.48), elbow=DOWN, pronate=60)
+    pose_arm(body, LEFT, back + out, flex=20, abduct=28, elbow=75)
+    lean(body, 4 * back + 18 * out, -26 * back + 30 * out)
+    nod_by(body, 0, 16 * back - 18 * out)
+    step(scene, body, RIGHT, 0.0, 0.46, late + 0.62, 0.32)
+    step(scene, body, RIGHT, 0.0, -0.46, late + 1.5, 0.42)
+    sink(body, 0.12 * out, back=-0.3)
+    return body
+
+
+def aim(scene: Scene, body: Body, up: Array) -> None:
+    """Both hands ahead at the height of the eyes, by `up` [T]."""
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.16, 0.12, 0.45), elbow=(0.3, -0.6, 0.8), pronate=0)
+    nod_by(body, 4 * up)
+    lean(body, 4 * up)
+    sink(body, 0.05 * up)
+
+
+def aim_gun(scene: Scene) -> Body:
+    """One foot back, a weapon in both hands, slowly along a line."""
+    body = scene.standing()
+    up = held(scene, 0.6)
+    stance(scene, body, RIGHT, 0.28)
+    aim(scene, body, up)
+    lean(body, turn=6 * np.sin(2 * np.pi * beats(scene, 2.6, 0.7)[0]) * up)
+    return body
+
+
+def shoot_gun(scene: Scene) -> Body:
+    """The same with a kick for each shot."""
+    body = scene.standing()
+    up = held(scene, 0.6)
+    stance(scene, body, RIGHT, 0.28)
+    aim(scene, body, up)
+    phase, _ = beats(scene, 0.75, 0.6)
+    share = phase % 1.0
+    kick = (
+        np.where(share < 0.5, 0, np.exp(-6 * (share - 0.5)) * min_jerk((share - 0.5) / 0.08)) * up
+    )
+    body.add_arms(FLEX, np.radians(17) * kick)
+    body.add_arms(ELBOW, np.radians(16) * kick)
+    lean(body, -6 * kick)
+    return body
+
+
+def drive(scene: Scene) -> Body:
+    """Seated, the hands on a wheel that turns."""
+    body, wheel = scene.standing(width=0.26), beats(scene, 2.1, 0.0)[0]
+    turn = np.sin(2 * np.pi * wheel) * scene.params["amplitude"]
+    body.position[:, 1] = 0.50
+    body.ball[..., 2] += 0.46
+    body.knee_out[:] += 0.15
+    one = np.ones_like(scene.t)
+    for side in (LEFT, RIGHT):
+        lift = sign_of(side) * turn
+        hand(body, side, one, (-0.03, -0.16, 0.37), elbow=DOWN, pronate=10)
+        hand(body, side, np.clip(lift, 0, 1), (-0.08, -0.02, 0.38), elbow=DOWN, pronate=10)
+        hand(body, side, np.clip(-lift, 0, 1), (-0.07, -0.29, 0.34), elbow=DOWN, pronate=10)
+    lean(body, -6, 4 * turn)
+    nod_by(body, 2, 8 * turn)
+    return body
+
+
+# ------------------------------------------------------------ with the whole body
+
+
+def pick_up(scene: Scene) -> Body:
+    """Down on bent knees, something in the hand, up again."""
+    body, length = scene.standing(width=0.26), 2.7
+    low = moment(scene, (0, 0), (0.95, 1), (1.25, 1), (2.2, 0), length=length)
+    got = moment(scene, (1.2, 0), (1.9, 1), (2.25, 1), (2.7, 0), length=length)
+    sink(body, 0.50 * low, back=0.30)
+    lean(body, 92 * low)
+    nod_by(body, 12 * low)
+    hand(body, RIGHT, low, (-0.04, -0.24, 0.43), elbow=DOWN)
+    hand(body, RIGHT, got * (1 - low), (-0.06, -0.22, 0.28), elbow=DOWN, pronate=-40)
+    pose_arm(body, LEFT, low, flex=42, abduct=14, elbow=44)
+    return body
+
+
+def throw(scene: Scene) -> Body:
+    """Wind up, step, release, follow through."""
+    body, side, length = scene.standing(width=0.24), side_of(scene), 2.5
+    sign, late = sign_of(side), max(0.0, (end_of(scene) - length) / 2)
+    wind = moment(scene, (0, 0), (0.85, 1), (1.0, 1), (1.2, 0), length=length)
+    out = moment(scene, (1.0, 0), (1.2, 1), (1.32, 1), (2.4, 0), length=length)
+    through = moment(scene, (1.24, 0), (1.5, 1), (1.75, 1), (2.4, 0), length=length)
+    hand(body, side, wind, (0.26, 0.20, -0.20), elbow=(1, 0.15, -0.3), wrist=-25)
+    hand(body, side, out, (-0.02, 0.26, 0.40), elbow=(0.6, 0.5, 0.8), pronate=40)
+    hand(body, side, through, (-0.26, -0.24, 0.28), elbow=(0.3, -0.4, 0.9), pronate=40)
+    pose_arm(body, other(side), wind, flex=72, abduct=22, elbow=24)
+    pose_arm(body, other(side), out, flex=5, abduct=22, elbow=70)
+    lean(body, -9 * wind + 15 * out + 8 * through, sign * (38 * wind - 30 * out))
+    nod_by(body, 0, -sign * (30 * wind - 22 * out))
+    step(scene, body, other(side), 0.0, 0.42, late + 0.68, 0.36)
+    step(scene, body, other(side), 0.0, -0.42, late + 2.0, 0.42)
+    sink(body, 0.07 * out, back=0.0)
+    body.position[:, 2] += 0.10 * out - 0.06 * wind
+    return body
+
+
+def push(scene: Scene) -> Body:
+    """One foot back, both palms ahead again and again."""
+    body, up = scene.standing(), held(scene, 0.6)
+    phase, _ = beats(scene, 1.7, 0.6)
+    out = (1 - np.cos(2 * np.pi * phase)) / 2
+    stance(scene, body, RIGHT, 0.40)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.02, -0.06, 0.28), elbow=OUT, pronate=40, wrist=-60)
+        hand(body, side, up * out, (-0.04, 0.02, 0.48), elbow=DOWN, pronate=40, wrist=-60)
+    lean(body, (12 + 16 * out) * up)
+    nod_by(body, 10 * up)
+    sink(body, (0.08 + 0.05 * out) * up, back=0.0)
+    body.position[:, 2] += (0.05 + 0.12 * out) * up
+    return body
+
+
+def stomp(scene: Scene) -> Body:
+    """Each foot in turn high, and down at once."""
+    body, up = scene.standing(), held(scene, 0.4)
+    phase, number = beats(scene, 0.95 / scene.params["tempo"], 0.35)
+    for index in range(int(number)):
+        side = RIGHT if index % 2 == 0 else LEFT
+        share = np.clip(phase - index, 0, 1)
+        high = np.where(share < 0.6, min_jerk(share / 0.6), 1 - min_jerk((share - 0.62) / 0.15))
+        high = high * ((share > 0) & (share < 1))
+        body.ball[:, side, 1] += 0.27 * high
+        body.ball[:, side, 2] += 0.07 * high
+        body.contacts[(high > 0.01), side] = 0.0
+        body.position[:, 0] -= sign_of(side) * 0.055 * bump(share)
+        hit = bump(np.clip((share - 0.72) / 0.28, 0, 1), peak=0.25)
+        lean(body, 9 * hit)
+        nod_by(body, 10 * hit)
+        sink(body, 0.035 * hit)
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, up, flex=8, abduct=17, elbow=52, pronate=50)
+    lean(body, 6 * up)
+    return body
+
+
+def jumping_jacks(scene: Scene) -> Body:
+    """Feet and arms apart and together, in small jumps."""
+    body = scene.standing(width=0.15)
+    phase, _ = beats(scene, 1.05 / scene.params["tempo"], 0.25)
+    apart = (1 - np.cos(2 * np.pi * phase)) / 2
+    share = (2 * phase) % 1.0  # two small jumps a cycle
+    during = (phase > 0) & (phase < phase.max())
+    air = np.where(during, np.clip(1 - ((share - 0.5) / 0.32) ** 2, 0, 1), 0)
+    body.ball[..., 1] += (0.07 * air)[:, None]
+    body.position[:, 1] += 0.10 * air - 0.05 * (1 - air) * during
+    body.contacts[air > 0.05] = 0.0
+    body.foot_pitch[:] -= (0.5 * air)[:, None]
+    for side in (LEFT, RIGHT):
+        body.ball[:, side, 0] += sign_of(side) * 0.26 * apart
+        pose_arm(body, side, apart, flex=8, abduct=158, twist=30, elbow=22, pronate=0)
+    return body
+
+
+def dodge(scene: Scene) -> Body:
+    """The trunk away, with a step, to a side or back."""
+    body, length = scene.standing(width=0.26), 1.9
+    late = max(0.0, (end_of(scene) - length) / 2)
+    away = moment(scene, (0.2, 0), (0.5, 1), (0.85, 1), (1.6, 0), length=length)
+    direction = scene.labels["direction"]
+    if direction == "backward":
+        lean(body, -26 * away)
+        nod_by(body, 6 * away)
+        step(scene, body, RIGHT, 0.03, -0.34, late + 0.18, 0.26)
+        step(scene, body, RIGHT, -0.03, 0.34, late + 1.2, 0.4)
+    else:
+        side = LEFT if direction == "left" else RIGHT
+        lean(body, 16 * away, 0, -sign_of(side) * 34 * away)
+        step(scene, body, side, sign_of(side) * 0.26, 0, late + 0.18, 0.26)
+        step(scene, body, side, -sign_of(side) * 0.26, 0, late + 1.2, 0.4)
+        body.position[:, 0] += sign_of(side) * 0.08 * away
+    sink(body, 0.17 * away)
+    for side in (LEFT, RIGHT):
+        hand(body, side, away, (0.0, 0.02, 0.24), elbow=(0.6, -1, 0.3))
+    return body
+
+
+Maker = Callable[[Scene], Body]
+Labels = dict[str, str]
+SIDED: tuple[Labels, ...] = ({}, {"side": "left"}, {"side": "right"})
+ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
+    # maker, shortest and longest in seconds, labels beside the action
+    "aim-gun": (aim_gun, 2.8, 5.0, ({},)),
+    "blow-kiss": (blow_kiss, 2.9, 4.5, ({},)),
+    "cast-spell": (cast_spell, 2.9, 4.5, ({},)),
+    "check-watch": (check_watch, 2.2, 4.5, ({},)),
+    "chop": (chop, 3.2, 5.0, ({},)),
+    "cover-face": (cover_face, 2.6, 5.0, ({},)),
+    "cross-arms": (cross_arms, 2.6, 5.0, ({},)),
+    "dab": (dab, 2.0, 4.5, ({},)),
+    "dodge": (dodge, 2.2, 4.5, tuple({"direction": d} for d in ("backward", "left", "right"))),
+    "drive": (drive, 2.5, 5.0, ({},)),
+    "hammer": (hammer, 2.8, 5.0, ({},)),
+    "hands-on-hips": (hands_on_hips, 2.4, 5.0, ({},)),
+    "hug": (hug, 3.2, 5.0, ({},)),
+    "jumping-jacks": (jumping_jacks, 2.6, 5.0, ({},)),
+    "laugh": (laugh, 2.8, 5.0, ({},)),
+    "nod": (nod, 2.0, 4.5, ({},)),
+    "open-door": (open_door, 3.1, 4.7, ({},)),
+    "pick-up": (pick_up, 3.1, 4.7, ({},)),
+    "point": (point, 2.2, 4.5, SIDED),
+    "pray": (pray, 2.6, 5.0, ({},)),
+    "press-button": (press_button, 2.3, 4.5, SIDED),
+    "pull-lever": (pull_lever, 2.8, 4.7, ({},)),
+    "push": (push, 2.8, 5.0, ({},)),
+    "salute": (salute, 2.2, 4.5, ({},)),
+    "shake-head": (shake_head, 2.0, 4.5, ({},)),
+    "shiver": (shiver, 2.8, 5.0, ({},)),
+    "shoot-gun": (shoot_gun, 2.6, 5.0, ({},)),
+    "shrug": (shrug, 2.0, 4.5, ({},)),
+    "stab": (stab, 2.6, 4.5, ({},)),
+    "stomp": (stomp, 2.6, 5.0, ({},)),
+    "stretch": (stretch, 3.2, 5.0, ({},)),
+    "talk": (talk, 2.8, 5.0, ({},)),
+    "throw": (throw, 2.9, 4.7, SIDED),
+}  # fmt: skip
+
+
+def make(action: str, labels: Labels, number: int, each: int, seed: int) -> Motion:
+    """One clip; its length is one of `each` between the shortest and the longest."""
+    maker, short, long, _ = ACTIONS[action]
+    params = spec_for({"action": action}, 1000 * seed + number).params
+    seconds = short + (long - short) * number / max(each - 1, 1)
+    t = np.arange(round(seconds * FPS)) / FPS
+    scene = Scene(t, labels, params, np.random.default_rng((seed, number)))
+    motion = solve(maker(scene))
+    if action == "shrug":  # the rig's collar bones follow the arms alone
+        for joint, sign in (("l_collar", 1), ("r_collar", -1)):
+            half = 0.5 * sign * np.radians(24) * shrugged(scene)
+            turn = np.stack([np.cos(half), *np.zeros((2, len(t))), np.sin(half)], -1)
+            bone = torch.from_numpy(motion.quaternions[:, JOINT_INDEX[joint]]).double()
+            turned = quaternion_multiply(torch.from_numpy(turn), bone)
+            motion.quaternions[:, JOINT_INDEX[joint]] = turned.numpy()
+    return motion
+
+
+def main() -> None:
+    """Write the clips and their table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--each", type=int, default=24, help="clips of each action and its labels")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--actions", default=",".join(ACTIONS))
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    keys = ("file", "action", "side", "direction", "provenance")
+    with (options.out / "clips.tsv").open("w", encoding="utf-8", newline="") as table:
+        rows = csv.DictWriter(table, keys, delimiter="\t", restval="")
+        rows.writeheader()
+        for action in options.actions.split(","):
+            for labels in ACTIONS[action][3]:
+                name = "_".join((action, *labels.values()))
+                for number in range(options.each):
+                    motion = make(action, labels, number, options.each, options.seed)
+                    file = f"{name}_{number:03d}"
+                    write_motion(motion, options.out / f"{file}.bvh")
+                    rows.writerow(
+                        {"file": file, "action": action, **labels, "provenance": "procedural"}
+                    )
+
+
+if __name__ == "__main__":
+    main()
