@@ -11,13 +11,14 @@ CMU are its own descriptions, which scripts/cmu_captions.py makes a table of (th
 of the model cards is its 75 rows of subjects 01 to 07, word for word). Bandai's labels are in its
 file names, all other words in src/configs.
 
-The text tower is taught from captions alone, twice: the first finds a place for each combination
-of labels, the second reads hand-written sentences, too, and sends each to such a place. The
-denoiser learns behind it. What it has few clips of, or moves too little in, low-rank adapters learn
-once more, one after another, where the data has such clips. The result is asked for every action so
-that it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every
-stage resumes, and does nothing when it is finished (a --work folder of before there were adapters
-cannot be gone on with). `--ship` writes int8 copies into src/shared/pretrained.
+The text tower is taught from captions alone, twice: the first finds a place for each combination of
+labels, the second reads hand-written sentences, too, and sends each to such a place. The denoiser
+learns behind it. What it has few clips of, or moves too little in, low-rank adapters learn once
+more, one after another, where the data has such clips; the last one learns actions that no free
+capture covers, from clips that gesture_clips.py makes. The result is asked for every action so that
+it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every stage
+resumes, and does nothing when it is finished (a --work folder of before there were adapters cannot
+be gone on with). `--ship` writes int8 copies into src/shared/pretrained.
 """
 
 import argparse
@@ -57,6 +58,7 @@ ADAPTED = {
     "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
               ("steps=4000",)),
 }  # fmt: skip
+GESTURES = ["rank=24", "steps=3600", "tower-steps=5000", "ema-decay=0.998"]  # section 68
 LEAST_CLIPS = 2  # of an action, to be learned
 TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
@@ -80,7 +82,8 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
 
     def scaled(setting: str, share: float) -> str:
         key, _, value = setting.partition("=")
-        return f"steps={max(1, round(int(value) * share))}" if key == "steps" else setting
+        counts = key in ("steps", "tower-steps")
+        return f"{key}={max(1, round(int(value) * share))}" if counts else setting
 
     yield ["-m", "src.cli.tools", "prepare", *options.sources, *options.tables,
            "--synthetic", str(synthetic), "--only-gaps", "--out", data]  # fmt: skip
@@ -90,7 +93,11 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
     if files := files_of_blows(options.sources):
         yield ["-m", "src.cli.tools", "prepare", *files, "--captions", str(BLOWS),
                "--out", str(work / "blows")]  # fmt: skip
-    learned = list(adapters(work))
+    clips = work / "gesture-clips"
+    yield ["-m", "scripts.gesture_clips", str(clips)]
+    yield ["-m", "src.cli.tools", "prepare", str(clips), "--captions", str(clips / "clips.tsv"),
+           "--no-mirror", "--out", str(work / "gestures")]  # fmt: skip
+    learned = [*adapters(work), ("gestures-by-rule", "gestures", GESTURES)]
     folders = [*(work / f"before-{name}" for name, *_ in learned), starter]
     yield train("generation", folders[0], f"steps={options.steps}", *DENOISER, f"clip={text}")
     for (before, after), (_, folder, own) in zip(pairwise(folders), learned, strict=True):

@@ -35,11 +35,19 @@ from ..motion.motion import Motion
 from ..motion.rotations import forward_kinematics, rotation_6d_to_matrix
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 from . import checkpoint
-from .checkpoint import PRETRAINED, WeightsInfo, check_weights, weights_info
+from .checkpoint import (
+    PRETRAINED,
+    WeightsInfo,
+    check_weights,
+    dequantise,
+    quantise,
+    weights_info,
+)
 
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3
 WEIGHTS = "model.safetensors"
+BAG = "text.bag.weight"
 WINDOW = 120  # frames that it sees at once: it learned from clips of so many
 MAX_SCALE = 50.0
 
@@ -203,10 +211,13 @@ class Evaluator(nn.Module):
         return self.embed_features([encode_features(motion) for motion in motions])
 
     def save_pretrained(self, folder: Path | str, *, notes: dict[str, Any] | None = None) -> None:
-        """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights."""
+        """Write `config.json` (with `notes`: data hash, steps, figures) and fp16 weights, those of
+        n-grams in int8."""
         folder = Path(folder)
         folder.mkdir(parents=True, exist_ok=True)
-        state = {k: v.detach().cpu().half().contiguous() for k, v in self.state_dict().items()}
+        state = {k: v.detach().cpu() for k, v in self.state_dict().items()}
+        bags = quantise({name: state.pop(name) for name in (BAG,)})
+        state = {k: v.half().contiguous() for k, v in state.items()} | bags
         with atomic_write(folder / WEIGHTS) as path:
             save_file(state, path)
         vouched = {"weights": weights_info(folder / WEIGHTS).model_dump()}
@@ -246,7 +257,7 @@ class Evaluator(nn.Module):
             raise checkpoint.of_another_version(folder / "config.json", error) from error
         try:
             model = cls(config)
-            model.load_state_dict({key: value.float() for key, value in weights.items()})
+            model.load_state_dict({k: v.float() for k, v in dequantise(weights).items()})
         except (KeyError, ValueError, RuntimeError) as error:
             raise UserError(
                 f"weights in {folder} do not fit its config.json ({error!s:.300}); copy the folder"
