@@ -5,9 +5,9 @@
 
 OUT gets BVH files and a captions table, `clips.tsv`, for `motion-tools prepare OUT --captions
 OUT/clips.tsv`; its words are the project's own (src/configs). The clips are made by rule, as those
-of `--synthetic` are, and say so (`provenance`). What happens when follows from the length of the
-clip alone, so that an adapter of few clips has nothing to average over: its motions stay as large
-and as fast as these (docs/experiments.md, section 68).
+of `--synthetic` are, and say so (`provenance`). When things happen is the same in all clips of an
+action, and how often follows from their lengths alone, so that an adapter of few clips has nothing
+to average over: its motions stay as large and as fast as these (docs/experiments.md, section 68).
 
 T frames; arms are given by where the wrist is: metres from the shoulder, outward, up and ahead of
 the chest.
@@ -51,6 +51,7 @@ from src.shared.motion.skeleton import JOINT_INDEX
 
 UPPER, FORE = 0.26, 0.25  # metres from shoulder to elbow and on to the wrist
 REST = 0.25  # seconds at rest before and after
+SOON = 0.15  # seconds before what is done once
 Keys = tuple[tuple[float, float], ...]
 
 
@@ -122,14 +123,13 @@ def held(scene: Scene, rise: float, fall: float | None = None, at: float = REST)
 def beats(scene: Scene, period: float, rise: float) -> tuple[Array, float]:
     """Phase [T] of whole cycles between rise and fall, 0 before and N after, and N."""
     start, room = REST + rise, end_of(scene) - 2 * (REST + rise)
-    number = max(1, round(room / period))
-    return np.clip((scene.t - start) / max(room, 0.3), 0, 1) * number, number
+    number = max(1, int(room / period + 0.25))
+    return np.clip((scene.t - start) / period, 0, number), number
 
 
-def moment(scene: Scene, *keys: tuple[float, float], length: float) -> Array:
-    """Keys of (seconds, value) of something that takes `length` seconds, in the clip's middle."""
-    late = max(0.0, (end_of(scene) - length) / 2)
-    return keyframes(scene.t, [(late + at, value) for at, value in keys])
+def moment(scene: Scene, *keys: tuple[float, float]) -> Array:
+    """Keys of (seconds, value) of what is done once, soon after the start."""
+    return keyframes(scene.t, [(SOON + at, value) for at, value in keys])
 
 
 def sign_of(side: int) -> float:
@@ -216,7 +216,7 @@ def quiver(scene: Scene, hertz: float) -> Array:
 def nod(scene: Scene) -> Body:
     """Yes: the head goes down and up again, all clip long."""
     body, size = scene.standing(), scene.params["amplitude"]
-    phase, _ = beats(scene, 0.62 / scene.params["tempo"], 0.1)
+    phase, _ = beats(scene, 0.62, 0.1)
     down = (1 - np.cos(2 * np.pi * phase)) / 2
     nod_by(body, 27 * size * down)
     lean(body, 3 * size * down)
@@ -226,7 +226,7 @@ def nod(scene: Scene) -> Body:
 def shake_head(scene: Scene) -> Body:
     """No: the head turns from side to side."""
     body, size = scene.standing(), scene.params["amplitude"]
-    phase, _ = beats(scene, 0.72 / scene.params["tempo"], 0.15)
+    phase, _ = beats(scene, 0.72, 0.15)
     nod_by(body, 4 * held(scene, 0.3), 36 * size * np.sin(2 * np.pi * phase))
     lean(body, turn=3 * size * np.sin(2 * np.pi * phase))
     return body
@@ -235,7 +235,7 @@ def shake_head(scene: Scene) -> Body:
 def talk(scene: Scene) -> Body:
     """Both hands underline in turn what is said."""
     body, up = scene.standing(), held(scene, 0.6)
-    phase, _ = beats(scene, 1.15 / scene.params["tempo"], 0.5)
+    phase, _ = beats(scene, 1.15, 0.5)
     size = scene.params["amplitude"]
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
         out = (1 - np.cos(2 * np.pi * (phase + late))) / 2
@@ -288,10 +288,10 @@ def dab(scene: Scene) -> Body:
 
 def cast_spell(scene: Scene) -> Body:
     """Both hands are gathered at the side and thrown ahead."""
-    body, length = scene.standing(), 2.5
+    body = scene.standing()
     keys: Keys = ((0.0, 0), (0.7, 1), (1.15, 1), (1.4, 0), (9, 0))
-    gather = moment(scene, *keys, length=length)
-    out = moment(scene, (1.15, 0), (1.38, 1), (1.9, 1), (2.5, 0), length=length)
+    gather = moment(scene, *keys)
+    out = moment(scene, (1.15, 0), (1.38, 1), (1.9, 1), (2.5, 0))
     for side in (LEFT, RIGHT):
         hand(body, side, gather, (-0.05, -0.22, 0.14), elbow=BACK, pronate=60)
         hand(body, side, out, (-0.06, 0.02, 0.49), elbow=DOWN, pronate=60, wrist=-65)
@@ -304,9 +304,9 @@ def cast_spell(scene: Scene) -> Body:
 
 def press_button(scene: Scene) -> Body:
     """A finger goes ahead, presses, comes back."""
-    body, side, length = scene.standing(), side_of(scene), 1.9
-    up = moment(scene, (0, 0), (0.7, 1), (1.2, 1), (1.9, 0), length=length)
-    press = moment(scene, (0.75, 0), (0.92, 1), (1.12, 0), length=length)
+    body, side = scene.standing(), side_of(scene)
+    up = moment(scene, (0, 0), (0.7, 1), (1.2, 1), (1.9, 0))
+    press = moment(scene, (0.75, 0), (0.92, 1), (1.12, 0))
     hand(body, side, up, (-0.04, -0.02, 0.40), elbow=DOWN, pronate=60)
     hand(body, side, up * press, (-0.06, -0.02, 0.49), elbow=DOWN, pronate=60)
     lean(body, 3 * up + 4 * press, -sign_of(side) * 10 * up)
@@ -383,9 +383,9 @@ def cover_face(scene: Scene) -> Body:
 
 def blow_kiss(scene: Scene) -> Body:
     """The hand from the mouth ahead."""
-    body, length = scene.standing(), 2.5
-    up = moment(scene, (0, 0), (0.7, 1), (1.8, 1), (2.5, 0), length=length)
-    away = moment(scene, (1.0, 0), (1.45, 1), (1.8, 1), (2.5, 1), length=length)
+    body = scene.standing()
+    up = moment(scene, (0, 0), (0.7, 1), (1.8, 1), (2.5, 0))
+    away = moment(scene, (1.0, 0), (1.45, 1), (1.8, 1), (2.5, 1))
     hand(body, RIGHT, up * (1 - away), (-0.14, 0.13, 0.14), elbow=(0.5, -1, 0.3), pronate=30)
     hand(body, RIGHT, up * away, (0.06, 0.12, 0.46), elbow=DOWN, pronate=-80)
     nod_by(body, (8 - 12 * away) * up)
@@ -445,9 +445,9 @@ def pray(scene: Scene) -> Body:
 
 def pull_lever(scene: Scene) -> Body:
     """A hand from above the shoulder down to the hip."""
-    body, length = scene.standing(width=0.26), 2.4
-    up = moment(scene, (0, 0), (0.75, 1), (1.75, 1), (2.4, 0), length=length)
-    pull = moment(scene, (0.85, 0), (1.45, 1), (1.75, 1), (2.4, 0.6), length=length)
+    body = scene.standing(width=0.26)
+    up = moment(scene, (0, 0), (0.75, 1), (1.75, 1), (2.4, 0))
+    pull = moment(scene, (0.85, 0), (1.45, 1), (1.75, 1), (2.4, 0.6))
     hand(body, RIGHT, up, (-0.04, 0.24, 0.36), elbow=DOWN, pronate=60)
     hand(body, RIGHT, up * pull, (0.02, -0.32, 0.20), elbow=BACK, pronate=60)
     lean(body, (7 + 10 * pull) * up, (14 - 22 * pull) * up)
@@ -457,23 +457,23 @@ def pull_lever(scene: Scene) -> Body:
 
 def open_door(scene: Scene) -> Body:
     """A knob turned, a door pulled and passed by."""
-    body, length = scene.standing(), 2.7
-    up = moment(scene, (0, 0), (0.75, 1), (2.0, 1), (2.7, 0), length=length)
-    knob = moment(scene, (0.75, 0), (1.0, 1), (1.9, 1), (2.1, 0), length=length)
-    pull = moment(scene, (1.05, 0), (1.8, 1), (2.05, 1), (2.7, 0.5), length=length)
+    body = scene.standing()
+    up = moment(scene, (0, 0), (0.75, 1), (2.0, 1), (2.7, 0))
+    knob = moment(scene, (0.75, 0), (1.0, 1), (1.9, 1), (2.1, 0))
+    pull = moment(scene, (1.05, 0), (1.8, 1), (2.05, 1), (2.7, 0.5))
     hand(body, RIGHT, up, (-0.06, -0.24, 0.40), elbow=DOWN, pronate=30)
     hand(body, RIGHT, up * pull, (0.30, -0.24, 0.10), elbow=BACK, pronate=30)
     body.arms[:, RIGHT, PRONATE] -= np.radians(65) * knob
     lean(body, 6 * up * (1 - pull), (10 - 32 * pull) * up)
     nod_by(body, 8 * up, 12 * pull * up)
-    step(scene, body, RIGHT, 0.05, -0.24, max(0.0, (end_of(scene) - length) / 2) + 1.2)
+    step(scene, body, RIGHT, 0.05, -0.24, SOON + 1.2)
     return body
 
 
 def hammer(scene: Scene) -> Body:
     """The right hand strikes what the left holds."""
     body, up = scene.standing(width=0.26), held(scene, 0.6)
-    phase, _ = beats(scene, 0.85 / scene.params["tempo"], 0.5)
+    phase, _ = beats(scene, 0.85, 0.5)
     share = phase % 1.0
     high = np.where(share < 0.6, min_jerk(share / 0.6), 1 - min_jerk((share - 0.6) / 0.25))
     hand(body, LEFT, up, (-0.10, -0.30, 0.28), elbow=DOWN)
@@ -487,7 +487,7 @@ def hammer(scene: Scene) -> Body:
 def chop(scene: Scene) -> Body:
     """Both hands from behind the head down to the ground."""
     body, up = scene.standing(width=0.42), held(scene, 0.6)
-    phase, _ = beats(scene, 1.75 / scene.params["tempo"], 0.5)
+    phase, _ = beats(scene, 1.75, 0.5)
     share = phase % 1.0
     high = np.where(share < 0.62, min_jerk(share / 0.62), 1 - min_jerk((share - 0.64) / 0.17))
     for side in (LEFT, RIGHT):
@@ -501,17 +501,16 @@ def chop(scene: Scene) -> Body:
 
 def stab(scene: Scene) -> Body:
     """A lunge with the right hand ahead."""
-    body, length = scene.standing(), 2.2
-    late = max(0.0, (end_of(scene) - length) / 2)
-    back = moment(scene, (0, 0), (0.6, 1), (0.75, 1), (0.95, 0), length=length)
-    out = moment(scene, (0.75, 0), (0.95, 1), (1.25, 1), (2.0, 0), length=length)
+    body = scene.standing()
+    back = moment(scene, (0, 0), (0.6, 1), (0.75, 1), (0.95, 0))
+    out = moment(scene, (0.75, 0), (0.95, 1), (1.25, 1), (2.0, 0))
     hand(body, RIGHT, back, (0.06, -0.22, -0.06), elbow=BACK, pronate=60)
     hand(body, RIGHT, out, (-0.10, -0.02, 0.48), elbow=DOWN, pronate=60)
     pose_arm(body, LEFT, back + out, flex=20, abduct=28, elbow=75)
     lean(body, 4 * back + 18 * out, -26 * back + 30 * out)
     nod_by(body, 0, 16 * back - 18 * out)
-    step(scene, body, RIGHT, 0.0, 0.46, late + 0.62, 0.32)
-    step(scene, body, RIGHT, 0.0, -0.46, late + 1.5, 0.42)
+    step(scene, body, RIGHT, 0.0, 0.46, SOON + 0.62, 0.32)
+    step(scene, body, RIGHT, 0.0, -0.46, SOON + 1.5, 0.42)
     sink(body, 0.12 * out, back=-0.3)
     return body
 
@@ -575,9 +574,9 @@ def drive(scene: Scene) -> Body:
 
 def pick_up(scene: Scene) -> Body:
     """Down on bent knees, something in the hand, up again."""
-    body, length = scene.standing(width=0.26), 2.7
-    low = moment(scene, (0, 0), (0.95, 1), (1.25, 1), (2.2, 0), length=length)
-    got = moment(scene, (1.2, 0), (1.9, 1), (2.25, 1), (2.7, 0), length=length)
+    body = scene.standing(width=0.26)
+    low = moment(scene, (0, 0), (0.95, 1), (1.25, 1), (2.2, 0))
+    got = moment(scene, (1.2, 0), (1.9, 1), (2.25, 1), (2.7, 0))
     sink(body, 0.50 * low, back=0.30)
     lean(body, 92 * low)
     nod_by(body, 12 * low)
@@ -589,11 +588,11 @@ def pick_up(scene: Scene) -> Body:
 
 def throw(scene: Scene) -> Body:
     """Wind up, step, release, follow through."""
-    body, side, length = scene.standing(width=0.24), side_of(scene), 2.5
-    sign, late = sign_of(side), max(0.0, (end_of(scene) - length) / 2)
-    wind = moment(scene, (0, 0), (0.85, 1), (1.0, 1), (1.2, 0), length=length)
-    out = moment(scene, (1.0, 0), (1.2, 1), (1.32, 1), (2.4, 0), length=length)
-    through = moment(scene, (1.24, 0), (1.5, 1), (1.75, 1), (2.4, 0), length=length)
+    body, side = scene.standing(width=0.24), side_of(scene)
+    sign = sign_of(side)
+    wind = moment(scene, (0, 0), (0.85, 1), (1.0, 1), (1.2, 0))
+    out = moment(scene, (1.0, 0), (1.2, 1), (1.32, 1), (2.4, 0))
+    through = moment(scene, (1.24, 0), (1.5, 1), (1.75, 1), (2.4, 0))
     hand(body, side, wind, (0.26, 0.20, -0.20), elbow=(1, 0.15, -0.3), wrist=-25)
     hand(body, side, out, (-0.02, 0.26, 0.40), elbow=(0.6, 0.5, 0.8), pronate=40)
     hand(body, side, through, (-0.26, -0.24, 0.28), elbow=(0.3, -0.4, 0.9), pronate=40)
@@ -601,8 +600,8 @@ def throw(scene: Scene) -> Body:
     pose_arm(body, other(side), out, flex=5, abduct=22, elbow=70)
     lean(body, -9 * wind + 15 * out + 8 * through, sign * (38 * wind - 30 * out))
     nod_by(body, 0, -sign * (30 * wind - 22 * out))
-    step(scene, body, other(side), 0.0, 0.42, late + 0.68, 0.36)
-    step(scene, body, other(side), 0.0, -0.42, late + 2.0, 0.42)
+    step(scene, body, other(side), 0.0, 0.42, SOON + 0.68, 0.36)
+    step(scene, body, other(side), 0.0, -0.42, SOON + 2.0, 0.42)
     sink(body, 0.07 * out, back=0.0)
     body.position[:, 2] += 0.10 * out - 0.06 * wind
     return body
@@ -627,7 +626,7 @@ def push(scene: Scene) -> Body:
 def stomp(scene: Scene) -> Body:
     """Each foot in turn high, and down at once."""
     body, up = scene.standing(), held(scene, 0.4)
-    phase, number = beats(scene, 0.95 / scene.params["tempo"], 0.35)
+    phase, number = beats(scene, 0.95, 0.35)
     for index in range(int(number)):
         side = RIGHT if index % 2 == 0 else LEFT
         share = np.clip(phase - index, 0, 1)
@@ -650,7 +649,7 @@ def stomp(scene: Scene) -> Body:
 def jumping_jacks(scene: Scene) -> Body:
     """Feet and arms apart and together, in small jumps."""
     body = scene.standing(width=0.15)
-    phase, _ = beats(scene, 1.05 / scene.params["tempo"], 0.25)
+    phase, _ = beats(scene, 1.05, 0.25)
     apart = (1 - np.cos(2 * np.pi * phase)) / 2
     share = (2 * phase) % 1.0  # two small jumps a cycle
     during = (phase > 0) & (phase < phase.max())
@@ -667,20 +666,19 @@ def jumping_jacks(scene: Scene) -> Body:
 
 def dodge(scene: Scene) -> Body:
     """The trunk away, with a step, to a side or back."""
-    body, length = scene.standing(width=0.26), 1.9
-    late = max(0.0, (end_of(scene) - length) / 2)
-    away = moment(scene, (0.2, 0), (0.5, 1), (0.85, 1), (1.6, 0), length=length)
+    body = scene.standing(width=0.26)
+    away = moment(scene, (0.2, 0), (0.5, 1), (0.85, 1), (1.6, 0))
     direction = scene.labels["direction"]
     if direction == "backward":
         lean(body, -26 * away)
         nod_by(body, 6 * away)
-        step(scene, body, RIGHT, 0.03, -0.34, late + 0.18, 0.26)
-        step(scene, body, RIGHT, -0.03, 0.34, late + 1.2, 0.4)
+        step(scene, body, RIGHT, 0.03, -0.34, SOON + 0.18, 0.26)
+        step(scene, body, RIGHT, -0.03, 0.34, SOON + 1.2, 0.4)
     else:
         side = LEFT if direction == "left" else RIGHT
         lean(body, 16 * away, 0, -sign_of(side) * 34 * away)
-        step(scene, body, side, sign_of(side) * 0.26, 0, late + 0.18, 0.26)
-        step(scene, body, side, -sign_of(side) * 0.26, 0, late + 1.2, 0.4)
+        step(scene, body, side, sign_of(side) * 0.26, 0, SOON + 0.18, 0.26)
+        step(scene, body, side, -sign_of(side) * 0.26, 0, SOON + 1.2, 0.4)
         body.position[:, 0] += sign_of(side) * 0.08 * away
     sink(body, 0.17 * away)
     for side in (LEFT, RIGHT):
