@@ -15,7 +15,7 @@ import torch
 from torch import Tensor
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
-from ..shared.data.captions.book import insert_babble, packaged_book
+from ..shared.data.captions.book import insert_babble, insert_word, packaged_book
 from ..shared.data.captions.language import spoken_labels
 from ..shared.data.captions.schema import Labels
 from ..shared.data.prepared import PreparedData, group_of
@@ -134,11 +134,12 @@ def _combination(labels: Labels) -> Combination:
 OLD_CAPTIONS = 16  # of each known action and language
 TOLD_EVERY = 100  # steps of the tower
 TOWER_BATCH = 320  # sentences: two fifths new, as many of what it knew, a fifth of neither
-TOWER_RATE = 5e-2
+TOWER_RATE = 5e-2  # falls to nothing, in a line
 PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little;
 PULLED = 3500  # less of more captions than these, as each is then seen less often
 KEEPING = 3.0  # weight of what the old sentences asked for beside what the new ones ask for
 NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
+INTRUDED = 0.15  # share of old sentences with a word of a new caption in them, to be overheard
 BABBLE = 0.3  # share of new captions with made-up words in them
 
 
@@ -239,7 +240,12 @@ def with_new_places(
             olds = torch.cat(kept)
             texts = [own[i] for i in news]
             texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
-            found = pooled(student, tokenizer, [*texts, *(old[i] for i in olds)])
+            told = torch.randint(len(own), (len(olds),), generator=draws)
+            texts += [
+                insert_word(old[i], own[j], rng) if rng.random() < INTRUDED else old[i]
+                for i, j in zip(olds, told, strict=True)
+            ]
+            found = pooled(student, tokenizer, texts)
             scores = PLACE_SCALE * found @ every.T  # [TOWER_BATCH, P + N]
             wanted = row[news] + len(every) - len(places)
             loss = cross_entropy(scores[: 2 * part], wanted)
@@ -248,6 +254,7 @@ def with_new_places(
             )
             aims = torch.cat([places[row[news]], taught[olds]])
             loss = loss + NEARNESS * (1 - (found * aims).sum(-1)).mean()
+            learner.param_groups[0]["lr"] = TOWER_RATE * (1 - step / steps)
             learner.zero_grad()
             loss.backward()  # type: ignore[no-untyped-call]
             learner.step()

@@ -220,7 +220,7 @@ def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
     """
     if share <= 0:
         return caption
-    joint = "" if any(ord(letter) >= EAST_ASIAN for letter in caption) else " "
+    joint = _between_words(caption)
     words = caption.split() if joint else list(caption)
     kept = [word for word, draw in zip(words, rng.random(len(words)), strict=True) if draw >= share]
     shortened = joint.join(kept)
@@ -239,7 +239,7 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
         rng: consumed a varying number of times.
         most: words to insert, at most.
     """
-    joint = "" if any(ord(letter) >= EAST_ASIAN for letter in caption) else " "
+    joint = _between_words(caption)
     words = caption.split() if joint else list(caption)
     letters = [letter for letter in letters_of if letter.isalpha()]
     if not letters:
@@ -257,6 +257,21 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
         place = edges[int(rng.integers(2))] if rng.random() < 0.7 else rng.integers(len(words) + 1)
         words.insert(int(place), word)
     return joint.join(words)
+
+
+def insert_word(caption: str, of: str, rng: np.random.Generator) -> str:
+    """The caption with a word of another text in it, or, of a text without spaces, two letters."""
+    joint = _between_words(caption)
+    words, others = caption.split() if joint else list(caption), of.split()
+    if not _between_words(of):
+        others = [of[at : at + 2] for at in range(max(1, len(of) - 1))]
+    words.insert(int(rng.integers(len(words) + 1)), others[int(rng.integers(len(others)))])
+    return joint.join(words)
+
+
+def _between_words(text: str) -> str:
+    """A space, or nothing in scripts without spaces."""
+    return "" if any(ord(letter) >= EAST_ASIAN for letter in text) else " "
 
 
 def _caption_files(path: Path) -> list[Path]:

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.data.captions.book import drop_words, insert_babble
+from src.shared.data.captions.book import drop_words, insert_babble, insert_word
 
 
 @given(st.text(min_size=1, max_size=60), st.floats(0, 0.99), st.integers(0, 1000))
@@ -40,3 +40,13 @@ def test_a_single_word_stays_a_word_of_its_own_script() -> None:
     for _ in range(50):
         made = insert_babble("walk", "corre", rng)
         assert "walk" in made.split() and made.isascii()
+
+
+def test_a_word_of_another_sentence_comes_in() -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        words = insert_word("a person walks", "she throws", rng).split()
+        assert len(words) == 4 and {"she", "throws"} & {*words}
+        assert insert_word("bow", "nod", rng) in ("bow nod", "nod bow")
+        longer = insert_word("人が歩く", "投げる", rng)
+        assert len(longer) == 6 and ("投げ" in longer or "げる" in longer)
