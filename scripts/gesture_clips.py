@@ -668,8 +668,8 @@ def dodge(scene: Scene) -> Body:
     """The trunk away, with a step, to a side or back."""
     body = scene.standing(width=0.26)
     away = moment(scene, (0.2, 0), (0.5, 1), (0.85, 1), (1.6, 0))
-    direction = scene.labels["direction"]
-    if direction == "backward":
+    direction = scene.labels.get("direction")
+    if direction is None:  # backward
         lean(body, -26 * away)
         nod_by(body, 6 * away)
         step(scene, body, RIGHT, 0.03, -0.34, SOON + 0.18, 0.26)
@@ -689,6 +689,7 @@ def dodge(scene: Scene) -> Body:
 Maker = Callable[[Scene], Body]
 Labels = dict[str, str]
 SIDED: tuple[Labels, ...] = ({}, {"side": "left"}, {"side": "right"})
+DODGES: tuple[Labels, ...] = ({}, {"direction": "left"}, {"direction": "right"})
 ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     # maker, shortest and longest in seconds, labels beside the action
     "aim-gun": (aim_gun, 2.8, 5.0, ({},)),
@@ -699,7 +700,7 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "cover-face": (cover_face, 2.6, 5.0, ({},)),
     "cross-arms": (cross_arms, 2.6, 5.0, ({},)),
     "dab": (dab, 2.0, 4.5, ({},)),
-    "dodge": (dodge, 2.2, 4.5, tuple({"direction": d} for d in ("backward", "left", "right"))),
+    "dodge": (dodge, 2.2, 4.5, DODGES),
     "drive": (drive, 2.5, 5.0, ({},)),
     "hammer": (hammer, 2.8, 5.0, ({},)),
     "hands-on-hips": (hands_on_hips, 2.4, 5.0, ({},)),
