@@ -28,6 +28,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -58,7 +59,7 @@ ADAPTED = {
     "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
               ("steps=4000",)),
 }  # fmt: skip
-GESTURES = ["rank=24", "steps=3600", "tower-steps=5000", "ema-decay=0.998"]  # section 68
+GESTURES = ["rank=20", "steps=3600", "tower-steps=4000", "ema-decay=0.998", "whole=true"]
 LEAST_CLIPS = 2  # of an action, to be learned
 TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
@@ -158,6 +159,8 @@ def ship(trained: Path, name: str, licence: str, description: str) -> None:
     generator = TextToMotion.from_pretrained(trained)
     about = {"name": name, "licence": licence, "description": description}
     generator.card = generator.card.model_copy(update=about)
+    if generator.scope is not None:  # which captions it learned is of use to who goes on training
+        generator.scope = replace(generator.scope, captions={})
     generator.save_pretrained(SHIPPED / name, int8=True)
     export_text(SHIPPED / name, SHIPPED / name)  # graphs belong to their weights
 

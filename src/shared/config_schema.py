@@ -273,6 +273,7 @@ class TrainConfig(Config):
     keep_checkpoints: int = Field(2, ge=1)
     min_frames: int = Field(32, ge=8)
     max_frames: int = Field(128, ge=8)
+    whole: bool = False  # windows are as long as clips, or max-frames
     balance: float = Field(0.5, ge=0, le=1)  # 0 = by clip, 1 = every label group alike
     captured_share: float = Field(0.5, ge=0, le=1)  # least, of an action's draws, where captured
     languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh")

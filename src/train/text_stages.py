@@ -105,6 +105,7 @@ def training_clips(
             data,
             min_frames=config.min_frames,
             max_frames=config.max_frames,
+            whole=config.whole,
             languages=config.languages,
             only=only,
             seed=mix_seed("data", config.seed),
@@ -163,6 +164,7 @@ def split_set(
         languages=config.languages,
         balance=config.balance,
         captured_share=config.captured_share,
+        whole=config.whole,
         only=only,
         seed=mix_seed("data", config.seed),
     )

@@ -240,7 +240,7 @@ class StreamedSet(CaptionedWindows):
         self._kept = MIXED + AHEAD + size * len(self._counts) // self._total
         records = [self.at(place) for place in range(first, first + size)]
         shared = np.random.default_rng((self.seed, step))
-        longest = int(shared.integers(self.min_frames, self.max_frames + 1))
+        longest = self._longest(shared)
         longest = max(longest, *(self._fewest_frames(record) for record in records))
         rng = np.random.default_rng((self.seed, step, rank, 1))
         return self.collate(records, min(longest, self.max_frames), rng)

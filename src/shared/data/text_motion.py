@@ -61,6 +61,7 @@ class WindowOptions(TypedDict, total=False):
 
     min_frames: int
     max_frames: int
+    whole: bool
     languages: tuple[str, ...]
     only: Callable[[ClipRecord], bool] | None
     seed: int
@@ -71,6 +72,8 @@ class CaptionedWindows(ABC):
 
     Args:
         data: where the clips come from.
+        whole: windows of `max_frames` always, or as long as the clip: nothing is cut off those in
+            which everything has its second.
         only: clips that it says no to are left out, if given.
         seed: another one draws other windows and captions.
     """
@@ -81,11 +84,12 @@ class CaptionedWindows(ABC):
         *,
         min_frames: int = 32,
         max_frames: int = 128,
+        whole: bool = False,
         languages: tuple[str, ...] = ("en", "es", "fr", "de", "ja", "zh"),
         only: Callable[[ClipRecord], bool] | None = None,
         seed: int = 0,
     ) -> None:
-        self.data, self.seed, self._only = data, seed, only
+        self.data, self.seed, self._only, self.whole = data, seed, only, whole
         self.min_frames, self.max_frames, self.languages = min_frames, max_frames, languages
         self._tag_index = {name: index for index, name in enumerate(data.tags)}
 
@@ -96,6 +100,11 @@ class CaptionedWindows(ABC):
     @abstractmethod
     def batch(self, step: int, size: int, *, rank: int = 0, count: int = 1) -> TextMotionBatch:
         """Part `rank` of `count` parts of `size` clips of a step: a function of these alone."""
+
+    def _longest(self, rng: np.random.Generator) -> int:
+        """Frames of the longest window of a batch."""
+        shortest = self.max_frames if self.whole else self.min_frames
+        return int(rng.integers(shortest, self.max_frames + 1))
 
     @abstractmethod
     def _features(self, record: ClipRecord) -> Tensor:
@@ -252,7 +261,7 @@ class TextMotionDataset(CaptionedWindows):
         that are not to be cut (a counted action) take part in the batches that hold them whole.
         """
         shared = np.random.default_rng((self.seed, step))
-        longest = int(shared.integers(self.min_frames, self.max_frames + 1))
+        longest = self._longest(shared)
         rng = np.random.default_rng((self.seed, step, rank, 1))
         weights = np.where(self._least <= longest, self._weights, 0.0)
         if not weights.any():  # nothing but long, whole clips

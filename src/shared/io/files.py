@@ -113,9 +113,9 @@ def write_text(path: Place, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
-def write_json(path: Place, value: Any) -> None:
+def write_json(path: Place, value: Any, *, indent: int = 1) -> None:
     """Write JSON with stable key order, whole or not at all."""
-    write_text(path, json.dumps(value, indent=1, ensure_ascii=False, sort_keys=True) + "\n")
+    write_text(path, json.dumps(value, indent=indent, ensure_ascii=False, sort_keys=True) + "\n")
 
 
 def read_text(path: Path, wanted: str) -> str:

@@ -388,6 +388,13 @@ def test_a_batch_is_masked_normalised_and_labelled(data: PreparedData) -> None:
     assert same == (batch.group[:, None] == batch.group[None]).flatten().tolist()
 
 
+def test_whole_clips_are_not_cut(data: PreparedData) -> None:
+    longest = max(record.num_frames for record in data.records("train"))
+    for step in range(4):
+        batch = TextMotionDataset(data, "train", max_frames=longest, whole=True).batch(step, 16)
+        assert batch.mask.sum(1).tolist() == [record.num_frames for record in batch.records]
+
+
 def test_counted_actions_are_never_cut(data: PreparedData) -> None:
     train = dataset(data, min_frames=40)
     seen = 0

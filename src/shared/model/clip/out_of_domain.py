@@ -367,7 +367,8 @@ class OutOfDomainDetector:
         names = [each.name for each in fields(self) if each.name not in ("means", "captions")]
         meta = {name.replace("_", "-"): getattr(self, name) for name in names}
         meta |= {"words": sorted(self.words), "fillers": sorted(self.fillers)}
-        write_json(folder / META_FILE, meta | {"reliability": dict(self.reliability)})
+        meta |= {"reliability": dict(self.reliability)}
+        write_json(folder / META_FILE, meta, indent=0)  # some ten thousand words
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
