@@ -137,9 +137,9 @@ TOWER_BATCH = 320  # sentences: two fifths new, as many of what it knew, a fifth
 TOWER_RATE = 5e-2  # falls to nothing, in a line
 PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little;
 PULLED = 3500  # less of more captions than these, as each is then seen less often
-KEEPING = 3.0  # weight of what the old sentences asked for beside what the new ones ask for
+KEEPING = 6.0  # weight of what the old sentences asked for beside what the new ones ask for
 NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
-INTRUDED = 0.15  # share of old sentences with a word of a new caption in them, to be overheard
+INTRUDED = 0.25  # share of old sentences with a word of a new caption in them, to be overheard
 BABBLE = 0.3  # share of new captions with made-up words in them
 
 

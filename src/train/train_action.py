@@ -408,6 +408,7 @@ class ActionTask(Task):
         scope = replace(scope, still=done(scope.still, still_actions(data)))
         if self.config.actions:
             return scope
+        known_by = scope.key_words
         tags = {record.group: record.tag for record in self.train.records}
         said = {action: set[str]() for action in self.actions}
         for group, asked in self._asked_of_groups().items():
@@ -418,6 +419,8 @@ class ActionTask(Task):
             embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
             others += self._known_captions
             scope = scope.with_action(action, texts, embeddings, others)
+        # A word that tells of a known action tells of no new one beside it.
+        scope = replace(scope, key_words={**scope.key_words, **known_by})
         arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
         scope = replace(scope, arms=arms, gestures=gesturing)
         before = self.before

@@ -42,7 +42,8 @@ TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
 OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
-MANY = 200  # captions of a new action, of which a word of one tells a story
+MANY = 200  # captions of a new action; of more, what a word of few tells is a story
+KEYED, HEARD = 35, 70  # one of so many more of them has to have a key word, and a known one
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
@@ -216,12 +217,13 @@ class OutOfDomainDetector:
         here = Counter(word for text in texts for word in text)
         there = Counter(word for caption in others for word in {*words_of(caption)} & here.keys())
         share = {word: there[word] / max(len(others), 1) for word in here}
+        more = max(0, len(texts) - MANY)
         telling = {
             word: math.log(2 / (1 + share[word] * len(texts) / number))
             for word, number in here.items()
-            if number / len(texts) >= OFTENER * share[word] and number > len(texts) / MANY
+            if number / len(texts) >= OFTENER * share[word] and number > more / KEYED
         }
-        key_words, often = dict(self.key_words), {w for w in here if here[w] > len(texts) / MANY}
+        key_words, heard = dict(self.key_words), {w for w in here if here[w] > more / HEARD}
         for word, _ in sorted(_cover(texts, telling, max(COVERAGES))):
             key_words[word] = (*key_words.get(word, ()), len(self.actions))
         place = _unit(embeddings.mean(axis=0))[None].astype(np.float32)
@@ -229,7 +231,7 @@ class OutOfDomainDetector:
             self,
             actions=(*self.actions, action),
             key_words=key_words,
-            words=self.words | often,
+            words=self.words | heard,
             means=np.concatenate((self.means, place)),
             captions={
                 **dict.fromkeys(map(caption_key, captions), len(self.actions)),
