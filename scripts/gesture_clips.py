@@ -45,6 +45,7 @@ from src.shared.data.synthetic.rig import (
     solve,
 )  # fmt: skip
 from src.shared.formats.registry import write_motion
+from src.shared.io.files import atomic_write
 from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import quaternion_multiply
 from src.shared.motion.skeleton import JOINT_INDEX
@@ -754,21 +755,29 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--actions", default=",".join(ACTIONS))
     options = parser.parse_args()
+    actions = options.actions.split(",")
+    if unknown := sorted({*actions} - {*ACTIONS}):
+        parser.error(f"no such action: {', '.join(unknown)}; there are {', '.join(ACTIONS)}")
+    if (options.out / "clips.tsv").exists():  # written last
+        return
     options.out.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for action in actions:
+        for labels in ACTIONS[action][3]:
+            name = "_".join((action, *labels.values()))
+            for number in range(options.each):
+                motion = make(action, labels, number, options.each, options.seed)
+                file = f"{name}_{number:03d}"
+                write_motion(motion, options.out / f"{file}.bvh")
+                rows.append({"file": file, "action": action, **labels, "provenance": "procedural"})
     keys = ("file", "action", "side", "direction", "provenance")
-    with (options.out / "clips.tsv").open("w", encoding="utf-8", newline="") as table:
-        rows = csv.DictWriter(table, keys, delimiter="\t", restval="")
-        rows.writeheader()
-        for action in options.actions.split(","):
-            for labels in ACTIONS[action][3]:
-                name = "_".join((action, *labels.values()))
-                for number in range(options.each):
-                    motion = make(action, labels, number, options.each, options.seed)
-                    file = f"{name}_{number:03d}"
-                    write_motion(motion, options.out / f"{file}.bvh")
-                    rows.writerow(
-                        {"file": file, "action": action, **labels, "provenance": "procedural"}
-                    )
+    with (
+        atomic_write(options.out / "clips.tsv") as path,
+        path.open("w", encoding="utf-8", newline="") as stream,
+    ):
+        table = csv.DictWriter(stream, keys, delimiter="\t", restval="")
+        table.writeheader()
+        table.writerows(rows)
 
 
 if __name__ == "__main__":

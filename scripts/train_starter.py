@@ -17,7 +17,7 @@ learns behind it. What it has few clips of, or moves too little in, low-rank ada
 more, one after another, where the data has such clips; the last one learns actions that no free
 capture covers, from clips that gesture_clips.py makes. The result is asked for every action so that
 it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every stage
-resumes, and does nothing when it is finished (a --work folder of before there were adapters cannot
+resumes, and does nothing when it is finished (a --work folder of before there were gestures cannot
 be gone on with). `--ship` writes int8 copies into src/shared/pretrained.
 """
 
@@ -98,7 +98,7 @@ def stages(options: argparse.Namespace) -> Iterator[list[str]]:
     yield ["-m", "scripts.gesture_clips", str(clips)]
     yield ["-m", "src.cli.tools", "prepare", str(clips), "--captions", str(clips / "clips.tsv"),
            "--no-mirror", "--out", str(work / "gestures")]  # fmt: skip
-    learned = [*adapters(work), ("gestures-by-rule", "gestures", GESTURES)]
+    learned = [*adapters(work), *by_rule(work)]
     folders = [*(work / f"before-{name}" for name, *_ in learned), starter]
     yield train("generation", folders[0], f"steps={options.steps}", *DENOISER, f"clip={text}")
     for (before, after), (_, folder, own) in zip(pairwise(folders), learned, strict=True):
@@ -138,6 +138,18 @@ def adapters(work: Path) -> Iterator[tuple[str, str, list[str]]]:
             yield name, folder, [f"actions=[{','.join(of)}]", *own, *settings]
 
 
+def by_rule(work: Path) -> Iterator[tuple[str, str, list[str]]]:
+    """Likewise of clips made by rule: of actions that are new, and of those that are not."""
+    known, made = (
+        {json.loads(line)["tag"] for line in lines_of(work / folder / "clips.jsonl")}
+        for folder in ("data", "gestures")
+    )
+    if made - known:
+        yield "made", "gestures", GESTURES
+    if made & known:
+        yield "made-again", "gestures", [f"actions=[{','.join(sorted(made & known))}]", *GESTURES]
+
+
 def lines_of(path: Path) -> list[str]:
     """Of a text file, none where there is no such file."""
     return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
@@ -159,7 +171,7 @@ def ship(trained: Path, name: str, licence: str, description: str) -> None:
     generator = TextToMotion.from_pretrained(trained)
     about = {"name": name, "licence": licence, "description": description}
     generator.card = generator.card.model_copy(update=about)
-    if generator.scope is not None:  # which captions it learned is of use to who goes on training
+    if generator.scope is not None:  # 0.3 MB: captions of training are judged as others are
         generator.scope = replace(generator.scope, captions={})
     generator.save_pretrained(SHIPPED / name, int8=True)
     export_text(SHIPPED / name, SHIPPED / name)  # graphs belong to their weights

@@ -205,7 +205,9 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
                             share=0.001, threads=1)  # fmt: skip
     shown = [("bow", {}), ("bow", {}), ("wave", {}), ("raise", {}), ("raise", {})]
     shown += [("walk", {"style": "sad"})] * 2 + [("walk", {"style": "happy"})] + [("walk", {})] * 20
-    for folder, clips in {"data": shown, "blows": [("slash", {})] * 2}.items():
+    made = [("nod", {}), ("bow", {})]
+    folders = {"data": shown, "blows": [("slash", {})] * 2, "gestures": made}
+    for folder, clips in folders.items():
         lines = [
             json.dumps({"tag": tag, "labels": labels, "group": f"{tag}{labels}",
                         "split": "train", "provenance": "captured"})
@@ -220,7 +222,7 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
     written, learned, prepared = set(), [], dict[Path, list[str]]()
     for _, module, *words in recipe.stages(given):
         if module == "scripts.gesture_clips":
-            made = words
+            clips_at = words[0]
             continue
         flags = dict(pairwise(words))
         if module == "src.cli.tools":
@@ -244,11 +246,12 @@ def test_every_stage_of_the_recipe_knows_its_settings(tmp_path: Path) -> None:
             learned.append((settings.actions, settings.styles))
         written.add(Path(flags["--output"]))
     assert learned == [
-        (("bow",), ()), (("slash",), ()), (("walk",), ("sad",)), (("walk",), ("plain",)), ((), ())
+        (("bow",), ()), (("slash",), ()), (("walk",), ("sad",)), (("walk",), ("plain",)), ((), ()),
+        (("bow",), ()),
     ]  # fmt: skip
-    assert made[0] in prepared[tmp_path / "gestures"]
+    assert clips_at in prepared[tmp_path / "gestures"]
     assert str(take) in prepared[tmp_path / "blows"]
-    assert len(written) == 10 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
+    assert len(written) == 11 and {tmp_path / "starter", tmp_path / "evaluator"} <= written
 
 
 def test_cmus_own_index_becomes_captions() -> None:

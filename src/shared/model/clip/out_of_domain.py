@@ -42,8 +42,9 @@ TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
 OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
-MANY = 200  # captions of a new action; of more, what a word of few tells is a story
-KEYED, HEARD = 35, 70  # one of so many more of them has to have a key word, and a known one
+MANY = 200  # captions of a new action, of which each word counts
+KEYED, HEARD = 35, 70  # in more than one of so many captions beyond these has a key word to stand,
+# and a word that is known: what few of many captions say is a story about it
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
