@@ -119,7 +119,7 @@ def test_models_that_it_cannot_run_are_refused(tmp_path: Path) -> None:
 @BROWSER
 @pytest.mark.parametrize(
     "prompt",
-    ["elle marche et bâille", "他敬礼然后走", "she walks and yawns", "dreht den Kopf nach links",
+    ["elle marche et bâille", "他打喷嚏然后走", "she walks and yawns", "dreht den Kopf nach links",
      "lies down and juggles"],
 )  # fmt: skip
 def test_what_nobody_taught_is_told_as_by_the_command(
