@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make clips of actions that no free capture of ours covers: nods, throws, jumping jacks ...
+"""Make clips by rule of actions that hardly any capture here shows: nods, throws, salutes ...
 
     python scripts/gesture_clips.py OUT [--each 24] [--seed 0] [--actions nod,throw]
 

@@ -275,7 +275,7 @@ def test_cmus_own_index_becomes_captions() -> None:
 
 @pytest.fixture(scope="module")
 def gestures() -> ModuleType:
-    """The script that makes clips of actions that no capture covers."""
+    """The script that makes clips by rule."""
     return load("gesture_clips")
 
 
