@@ -14,8 +14,8 @@ file names, all other words in src/configs.
 The text tower is taught from captions alone, twice: the first finds a place for each combination of
 labels, the second reads hand-written sentences, too, and sends each to such a place. The denoiser
 learns behind it. What it has few clips of, or moves too little in, low-rank adapters learn once
-more, one after another, where the data has such clips; the last one learns actions that hardly
-any capture shows, from clips that gesture_clips.py makes. The result is asked for every action so that
+more, one after another, where the data has such clips; the last one learns actions that hardly any
+capture shows, from clips that gesture_clips.py makes. The result is asked for every action so that
 it warns of those that it cannot do, and a motion tower learns to meet the text tower. Every stage
 resumes, and does nothing when it is finished (a --work folder of before there were gestures cannot
 be gone on with). `--ship` writes int8 copies into src/shared/pretrained.
