@@ -137,9 +137,9 @@ TOWER_BATCH = 320  # sentences: two fifths new, as many of what it knew, a fifth
 TOWER_RATE = 5e-2  # falls to nothing, in a line
 PULL = 2e-3  # of what a row has learned goes with each step: a word of one caption says little;
 PULLED = 3500  # less of more captions than these, as each is then seen less often
-KEEPING = 6.0  # weight of what the old sentences asked for beside what the new ones ask for
+KEEPING = 3.0  # weight of what the old sentences asked for beside what the new ones ask for
 NEARNESS = 20.0  # weight of the cosines beside the choice: warnings go by how near a place lies
-INTRUDED = 0.25  # share of old sentences with a word of a new caption in them, to be overheard
+INTRUDED = 0.15  # share of old sentences with a word of a new caption in them, to be overheard
 BABBLE = 0.3  # share of new captions with made-up words in them
 
 
@@ -174,6 +174,7 @@ def with_new_places(
     old: Sequence[str],
     outside: Sequence[str],
     *,
+    fixed: Collection[str] = (),
     steps: int,
     seed: int,
 ) -> TextTower:
@@ -189,6 +190,7 @@ def with_new_places(
         old: sentences whose embeddings and shares of the old places it keeps (distillation, Hinton
             et al. 2015).
         outside: sentences of what neither knows, which it keeps away from all places likewise.
+        fixed: words whose rows stay, too: those that tell of what it knew.
         steps: of TOWER_BATCH sentences.
     """
     own = [text for texts in captions for text in texts]
@@ -199,6 +201,8 @@ def with_new_places(
     others = [text for text in outside if text not in mine]
     said = [tokenizer(list(texts))[0] for texts in captions]
     telling = _telling(said, tokenizer(old + others)[0])
+    stay = keys_of(tokenizer(list(fixed))[0]) if fixed else telling[:0]
+    telling = telling[~torch.isin(telling, stay)]
     pull = PULL * min(1.0, PULLED / len(own))
     student = _extended(tower, telling).requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)

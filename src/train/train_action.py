@@ -187,14 +187,16 @@ class ActionTask(Task):
             for text in packaged_book().outside({*self.before.card.tags, *self.actions}, code)
         ]
 
+        kept = sorted(self.before.scope.key_words) if self.before.scope else []
+
         def taught() -> TextTower:
             announce(f"teaching the text tower {', '.join(self.actions)}")
             said, tokenizer = list(captions.values()), self.before.tokenizer
             return with_new_places(
-                before, tokenizer, places, said, known, outside, steps=steps, seed=seed
+                before, tokenizer, places, said, known, outside, fixed=kept, steps=steps, seed=seed
             )
 
-        made_of = [tower_hash(before), captions, known, outside, steps, seed]
+        made_of = [tower_hash(before), captions, known, outside, kept, steps, seed]
         tower = taught_once(Path(self.config.output), made_of, before, taught)
         return tower, dict(zip(groups, places, strict=True))
 
@@ -408,7 +410,7 @@ class ActionTask(Task):
         scope = replace(scope, still=done(scope.still, still_actions(data)))
         if self.config.actions:
             return scope
-        known_by = scope.key_words
+        taken = scope.key_words.keys()
         tags = {record.group: record.tag for record in self.train.records}
         said = {action: set[str]() for action in self.actions}
         for group, asked in self._asked_of_groups().items():
@@ -418,9 +420,7 @@ class ActionTask(Task):
             others = [text for each, of in said.items() if each != action for text in of]
             embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
             others += self._known_captions
-            scope = scope.with_action(action, texts, embeddings, others)
-        # A word that tells of a known action tells of no new one beside it.
-        scope = replace(scope, key_words={**scope.key_words, **known_by})
+            scope = scope.with_action(action, texts, embeddings, others, taken)
         arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
         scope = replace(scope, arms=arms, gestures=gesturing)
         before = self.before

@@ -160,9 +160,7 @@ def test_all_that_is_not_known_is_named(starter: TextToMotion):
 
 def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
-    lines = sentences.scope_warnings(
-        ["he hops five times", "he hops five times like a maniac on fire"]
-    )
+    lines = sentences.scope_warnings(["aplaude cuatro veces", "aplaude cuatro veces muy contento"])
     assert lines[0] is None and lines[1] is not None
     turned = ["dreht sich um 180 Grad und rennt weg", "er dreht sich um 90 Grad"]
     assert sentences.scope_warnings(turned) == [None, None]  # the angle says that it is a turn

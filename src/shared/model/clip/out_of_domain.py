@@ -25,7 +25,7 @@ import math
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
@@ -42,9 +42,8 @@ TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
 OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
-MANY = 200  # captions of a new action, of which each word counts
-KEYED, HEARD = 35, 70  # in more than one of so many captions beyond these has a key word to stand,
-# and a word that is known: what few of many captions say is a story about it
+MANY = 200  # captions of a new action; of more, what a word of few tells is a story
+KEYED, HEARD = 35, 70  # one of so many more of them has to have a key word, and a known one
 HELD_OUT = 10  # every tenth caption calibrates
 MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
@@ -204,7 +203,12 @@ class OutOfDomainDetector:
         )
 
     def with_action(
-        self, action: str, captions: Sequence[str], embeddings: np.ndarray, others: Sequence[str]
+        self,
+        action: str,
+        captions: Sequence[str],
+        embeddings: np.ndarray,
+        others: Sequence[str],
+        taken: Collection[str] = (),
     ) -> Self:
         """The same scope, with an action more.
 
@@ -213,6 +217,7 @@ class OutOfDomainDetector:
             captions: N of it.
             embeddings: [N, D] of them.
             others: captions of all other actions; what is seldom in them tells of this one.
+            taken: words that tell of others: neither these nor other forms of them tell of it.
         """
         texts = [frozenset(words_of(caption)) for caption in captions]
         here = Counter(word for text in texts for word in text)
@@ -222,7 +227,10 @@ class OutOfDomainDetector:
         telling = {
             word: math.log(2 / (1 + share[word] * len(texts) / number))
             for word, number in here.items()
-            if number / len(texts) >= OFTENER * share[word] and number > more / KEYED
+            if number / len(texts) >= OFTENER * share[word]
+            and number > more / KEYED
+            and word not in taken
+            and not any(_same_stem(word, each) for each in taken)
         }
         key_words, heard = dict(self.key_words), {w for w in here if here[w] > more / HEARD}
         for word, _ in sorted(_cover(texts, telling, max(COVERAGES))):
