@@ -11,6 +11,7 @@ import copy
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Sequence
 
+import numpy as np
 import torch
 from torch import Tensor
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
@@ -231,30 +232,18 @@ def with_new_places(
     learner = torch.optim.Adam([rows], lr=TOWER_RATE)
     rng = numpy_generator("tower", seed)
     draws = generator("tower", seed)
-    part = TOWER_BATCH // 5
     with torch.random.fork_rng():
         torch.manual_seed(seed)
         for step in range(steps):
             if step and step % TOLD_EVERY == 0:
                 announce(f"text tower: step {step} of {steps}")
-            news, *kept = (
-                torch.randint(pool.start, pool.stop, (parts * part,), generator=draws)
-                for pool, parts in pools
-            )
-            olds = torch.cat(kept)
-            texts = [own[i] for i in news]
-            texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
-            told = torch.randint(len(own), (len(olds),), generator=draws)
-            texts += [
-                insert_word(old[i], own[j], rng) if rng.random() < INTRUDED else old[i]
-                for i, j in zip(olds, told, strict=True)
-            ]
+            news, olds, texts = _batch(own, old, pools, draws, rng)
             found = pooled(student, tokenizer, texts)
             scores = PLACE_SCALE * found @ every.T  # [TOWER_BATCH, P + N]
             wanted = row[news] + len(every) - len(places)
-            loss = cross_entropy(scores[: 2 * part], wanted)
+            loss = cross_entropy(scores[: len(news)], wanted)
             loss = loss + KEEPING * kl_div(
-                scores[2 * part :].log_softmax(-1), shares[olds], reduction="batchmean"
+                scores[len(news) :].log_softmax(-1), shares[olds], reduction="batchmean"
             )
             aims = torch.cat([places[row[news]], taught[olds]])
             loss = loss + NEARNESS * (1 - (found * aims).sum(-1)).mean()
@@ -275,6 +264,35 @@ def pooled(tower: TextTower, tokenizer: PromptTokenizer, texts: Sequence[str]) -
     real = mask[..., None].to(hidden.dtype)
     mean = (hidden * real).sum(1) / real.sum(1)
     return normalize(tower.text_proj(mean), dim=-1)
+
+
+def _batch(
+    own: Sequence[str],
+    old: Sequence[str],
+    pools: Sequence[tuple[range, int]],
+    draws: torch.Generator,
+    rng: np.random.Generator,
+) -> tuple[Tensor, Tensor, list[str]]:
+    """Which of the new captions, which of the others, and the sentences of both: some with made-up
+    words in them, or of the others with a word of a new caption.
+
+    Args:
+        pools: of the new ones, then of two kinds of others, where each begins and ends, and how
+            many fifths of the batch it is.
+    """
+    news, *kept = (
+        torch.randint(pool.start, pool.stop, (fifths * (TOWER_BATCH // 5),), generator=draws)
+        for pool, fifths in pools
+    )
+    olds = torch.cat(kept)
+    texts = [own[i] for i in news]
+    texts = [insert_babble(t, t, rng) if rng.random() < BABBLE else t for t in texts]
+    told = torch.randint(len(own), (len(olds),), generator=draws)
+    texts += [
+        insert_word(old[i], own[j], rng) if rng.random() < INTRUDED else old[i]
+        for i, j in zip(olds, told, strict=True)
+    ]
+    return news, olds, texts
 
 
 def _telling(captions: Sequence[Tensor], old: Tensor) -> Tensor:
