@@ -43,6 +43,7 @@ MAX_SLOPE = 2.5  # m/s at which a correction may start from a plant
 UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
 SWING = 150.0  # m/s² with which a foot gets from one plant to the next, at most
 MAX_REACH = 0.9  # metres from the hip to the ball of a planted foot, its heel up
+ROUNDING = 1e-9  # of a mean in metres, however it is summed
 
 
 def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
@@ -321,13 +322,34 @@ def _in_reach(
     The middle of its way, or nearer to below the hip; of a way that is too long, the longest
     beginning: a foot lands when it is to land, and leaves sooner. No frames where no leg reaches.
     """
+    sums = [np.concatenate(([0.0], np.cumsum(way[start:stop, axis]))).tolist()
+            for axis in (0, 2) for way in (ball, hip)]  # fmt: skip
+    hips, far = hip[start:stop].tolist(), 0  # in frame `far` no leg reached the last time
+
+    def fails_there(first: int, last: int, share: float) -> bool:
+        """Whether the leg is too short in that frame again: far sooner known than of all frames."""
+        if not first <= far < last:
+            return False
+        own = 1 - share
+        x, z = (
+            (own * (foot[last] - foot[first]) + share * (under[last] - under[first]))
+            / (last - first)
+            for foot, under in (sums[:2], sums[2:])
+        )
+        away = (hips[far][0] - x, hips[far][1] - REST_FOOT_HEIGHT, hips[far][2] - z)
+        return math.hypot(*away) > MAX_REACH + ROUNDING
+
     for first in range(start, stop - shortest + 1):
         for last in range(stop, first + shortest - 1, -1):
-            foot, under = ball[first:last].mean(0), hip[first:last].mean(0)
             for share in UNDER:
+                if fails_there(first - start, last - start, share):
+                    continue
+                foot, under = ball[first:last].mean(0), hip[first:last].mean(0)
                 point = _on_floor((1 - share) * foot + share * under)
-                if np.linalg.norm(hip[first:last] - point, axis=1).max() <= MAX_REACH:
+                away = np.linalg.norm(hip[first:last] - point, axis=1)
+                if away.max() <= MAX_REACH:
                     return point, first, last
+                far = first - start + int(away.argmax())
     return _on_floor(ball[start]), start, start
 
 
