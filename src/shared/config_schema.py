@@ -147,6 +147,7 @@ class GenerationConfig(Config):
     constraints: bool = False  # an input that says which entries are known
     provenance: bool = False  # an input that says where a clip's motion comes from
     adapter_ranks: tuple[int, ...] = ()  # of low-rank adapters, each for some of the tower's places
+    one_step_rank: int = Field(0, ge=0)  # of the change that makes one step of many; 0 = none
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
@@ -387,9 +388,13 @@ class TrainDistillConfig(TrainConfig):
 
     init: str = "starter"  # the teacher
     student: str | None = None  # taught before, to go on from; None = it begins as the teacher
+    rank: int | None = Field(
+        None, ge=1
+    )  # of a learned step beside the teacher's weights; see there
     teacher_steps: int = Field(8, ge=1)
     student_steps: int = Field(2, ge=1)
-    pair_batches: int = Field(200, ge=1)  # of batch-size motions that the teacher samples
+    pair_batches: int = Field(200, ge=0)  # of batch-size motions that the teacher samples; 0: as
+    # they are needed, each learned once, none kept
     first_share: float = Field(0.5, ge=0, le=1)  # of the pairs that begin with noise alone
     condition_dropout: float = Field(0.05, ge=0, lt=1)  # motions of no text, which edits ask for
     tag_dropout: float = Field(0.8, ge=0, le=1)

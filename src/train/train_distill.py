@@ -9,6 +9,10 @@ each of the states that it will visit to the next one in one step, where the tea
 and without the pass of no text: progressive distillation (Salimans and Ho 2022, section 3) with
 guidance folded in (Meng et al. 2023), on the teacher's own path from noise.
 
+With `rank` no other network comes of it: the teacher keeps its weights and learns, beside them,
+what it becomes for one step (`OneStep` in denoiser.py), which goes from noise to where the
+teacher's own sampler ends. The result samples as before, and `--steps 1` takes that step.
+
 Letters: B batch, T frames, R rows of a frame, D shared dimensions, N student steps.
 """
 
@@ -17,11 +21,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import torch
 from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
+from torch.func import functional_call
 
 from ..shared.config_schema import (
     PROVENANCES,
@@ -90,9 +96,15 @@ class DistillTask(Task):
     """What the trainer needs to know (task.py)."""
 
     def __init__(self, config: TrainDistillConfig, network: NetworkConfig) -> None:
-        self.config, self.network = config, network
+        self.config = config
         self.compute = choose_compute(config.device, config.precision)
         self.teacher = TextToMotion.from_pretrained(config.init, device=self.compute.device)
+        own: dict[str, Any] = {"one_step_rank": config.rank or 0}
+        if config.rank is not None:  # beside the teacher, which samples as it did
+            before = self.teacher.network.generation
+            own |= {"sampler": before.sampler, "timestep_spacing": before.timestep_spacing}
+        generation = network.generation.model_copy(update=own)
+        self.network = network = network.model_copy(update={"generation": generation})
         self.diffusion = GaussianDiffusion(network.generation.diffusion()).to(self.teacher.device)
         self.steps = self._student_timesteps()
         self.data = open_training_data(config, network)
@@ -106,7 +118,8 @@ class DistillTask(Task):
         }
         self._make_pairs()
         self.num_held_back = len(list(self.folder.glob("held-*.safetensors")))
-        self.module: nn.Module = GuidedDenoiser(self._beginning())
+        kind = GuidedDenoiser if config.rank is None else LearnedStep
+        self.module: nn.Module = kind(self._beginning())
         self.loss = GenerationLoss(
             config.losses, self.diffusion, self.teacher.mean, self.teacher.std
         )
@@ -123,12 +136,21 @@ class DistillTask(Task):
                     " another text tower; name its own teacher"
                 )
         student = MotionDenoiser(self.network, len(self.teacher.card.tags))
-        student.load_state_dict(before.denoiser.state_dict())
+        state = before.denoiser.plain_state()
+        if self.config.rank is not None:  # and the step that it has, if it is of this rank
+            same = before.network.generation.one_step_rank == self.config.rank
+            state = student.state_dict() | (before.denoiser.state_dict() if same else state)
+        student.load_state_dict(state)
+        if self.config.rank is not None:
+            for name, weight in student.named_parameters():
+                weight.requires_grad_(name.startswith("one_step."))
         return student
 
     def _student_timesteps(self) -> tuple[int, ...]:
         """Steps of the process that the student visits, the noisiest first."""
         config, process = self.config, self.diffusion.config
+        if config.rank is not None:
+            return sampling_timesteps(process.timesteps, 1, SPACING)
         of_teacher, own = (
             sampling_timesteps(process.timesteps, number, SPACING)
             for number in (config.teacher_steps, config.student_steps)
@@ -147,7 +169,7 @@ class DistillTask(Task):
         config, size = self.config, self.config.batch_size
         kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
                 "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
-                "captured_share", "languages"}  # fmt: skip
+                "captured_share", "languages", "rank"}  # fmt: skip
         made_of = {
             "kept": f"aims, {SPACING}",
             **self.identity,
@@ -213,7 +235,8 @@ class DistillTask(Task):
                 path.append(x_t)
             return model_fn(x_t, t).float()
 
-        sampler = make_sampler(self.diffusion, "ddim", config.teacher_steps)
+        own_sampler = ("ddim", config.teacher_steps) if config.rank is None else ()
+        sampler = make_sampler(self.diffusion, *own_sampler)
         with autocast(self.compute):
             path.append(sampler.run(watched, noise))
         aims, states = (
@@ -235,12 +258,16 @@ class DistillTask(Task):
     # ------------------------------------------------------------ batches
 
     def batch(self, part: Part) -> DistillBatch:
-        """A file of pairs, one state of each; every file once before any twice."""
+        """A file of pairs, one state of each; every file once before any twice. Or new ones."""
         config = self.config
         number = (part.step - 1) * part.count + part.index
-        turn, place = divmod(number, config.pair_batches)
-        order = numpy_generator("order", config.seed, turn).permutation(config.pair_batches)
-        pairs = _read(self._file("train", int(order[place])))
+        if config.pair_batches:
+            turn, place = divmod(number, config.pair_batches)
+            order = numpy_generator("order", config.seed, turn).permutation(config.pair_batches)
+            pairs = _read(self._file("train", int(order[place])))
+        else:
+            clips = self.train.batch(number + 1, config.batch_size)
+            pairs = self._sampled(clips, "pairs", config.seed, number)
         draws = generator("states", config.seed, part.step, part.index)
         size = len(pairs.place)
         later = torch.randint(1, max(2, len(self.steps)), (size,), generator=draws)
@@ -288,8 +315,10 @@ class DistillTask(Task):
     def _student(self, module: nn.Module) -> TextToMotion:
         assert isinstance(module, GuidedDenoiser)
         before, config = self.teacher, self.config
-        own = {"guidance_scale": 1.0, "sampling_steps": config.student_steps}
-        generation = self.network.generation.model_copy(update=own)
+        generation = self.network.generation
+        if config.rank is None:
+            own = {"guidance_scale": 1.0, "sampling_steps": config.student_steps}
+            generation = generation.model_copy(update=own)
         learned = {
             "from": before.card.name,
             "steps": config.steps,
@@ -312,6 +341,17 @@ class DistillTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._student(module).save_pretrained(folder)
+
+
+class LearnedStep(GuidedDenoiser):
+    """A denoiser that stays as it is, in the one step that it learns."""
+
+    def predicted(self, *heard: Any, **told: Any) -> Tensor:
+        """With the weights of that step."""
+        step = self.denoiser.one_step
+        assert step is not None, "the network has no one-step-rank"
+        output: Tensor = functional_call(self.denoiser, step.weights(self.denoiser), heard, told)
+        return output
 
 
 def _is_made(file: Path, made_of: dict[str, str]) -> bool:

@@ -121,7 +121,7 @@ class GuidedDenoiser(nn.Module):
     def forward(self, noisy: Tensor, text: TextFeatures, told: Conditions) -> Tensor:
         """As MotionDenoiser.forward; rows where `drop` is True see the null text."""
         heard = self.denoiser.drop_text(self.denoiser.with_adapters(text), told.drop)
-        output: Tensor = self.denoiser(
+        return self.predicted(
             noisy,
             told.timesteps,
             heard,
@@ -130,6 +130,10 @@ class GuidedDenoiser(nn.Module):
             known=told.known if self.denoiser.known_proj is not None else None,
             provenance=told.provenance if self.denoiser.provenance_embed is not None else None,
         )
+
+    def predicted(self, *heard: Any, **told: Any) -> Tensor:
+        """As MotionDenoiser.forward, which it is."""
+        output: Tensor = self.denoiser(*heard, **told)
         return output
 
 
@@ -294,7 +298,7 @@ class GenerationTask(Task):
                 f" {self.config.clip}: its prompts would mean other motions; leave clip out to keep"
                 " its own, or give other-tower=true and the steps to get used to the new one"
             )
-        state = trained.denoiser.state_dict()
+        state = trained.denoiser.plain_state()  # a learned step is that of what it was
         tags = denoiser.tag_embed.embedding.weight.detach().clone()  # [num_tags + 1, D]
         places = {name: index for index, name in enumerate((*trained.card.tags, None))}
         for index, name in enumerate((*self.data.tags, None)):
@@ -432,7 +436,8 @@ class GenerationTask(Task):
 
 def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     """What weights are bound to: the network without its towers and how it is sampled."""
-    free = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing"}
+    free = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing",
+            "one_step_rank"}  # fmt: skip
     learned_later = {"constraints", "provenance"}
     return network.model_dump(exclude={"clip": True, "generation": free | learned_later})
 

@@ -85,6 +85,44 @@ def test_a_student_learns_the_steps_of_its_teacher(
     assert torch.equal(again[:5], values[:5]) and again.isfinite().all()
 
 
+def test_a_step_is_learned_beside_the_weights(
+    prepared: Path, teacher: Path, tmp_path: Path
+) -> None:
+    more = ("rank=6", "pair-batches=0", "steps=1", "learning-rate=1e-9")
+    untaught = distill(prepared, teacher, tmp_path / "none", *more)
+    assert not list((tmp_path / "none" / "pairs").glob("train-*"))
+    more = ("rank=6", "steps=60", "learning-rate=0.01", "ema-decay=0.5")
+    taught = distill(prepared, teacher, tmp_path / "taught", *more)
+    seen = missed(untaught)
+    assert missed(taught) < 0.8 * seen
+
+    before, after = (
+        TextToMotion.from_pretrained(folder, device="cpu")
+        for folder in (teacher, tmp_path / "taught")
+    )
+    assert after.network.generation.one_step_rank == 6
+    kept, now = (model.sample_features(PROMPTS, seconds=1.0, steps=4) for model in (before, after))
+    assert all(map(torch.equal, kept, now))  # many steps are what they were
+    learned = after.sample_features(PROMPTS, seconds=1.0, steps=1)
+    plain = before.sample_features(PROMPTS, seconds=1.0, steps=1)
+    assert not torch.allclose(learned[0], plain[0])
+    aimed = [
+        sum(float((x - y).square().mean()) for x, y in zip(found, kept, strict=True))
+        for found in (learned, plain)
+    ]
+    assert aimed[0] < aimed[1]
+    scale = before.network.generation.guidance_scale
+    guided_once = [
+        model.sample_features(PROMPTS, seconds=1.0, steps=1, guidance_scale=scale)[0]
+        for model in (before, after)
+    ]
+    assert torch.equal(*guided_once)  # who names a scale asks the network itself
+
+    on = distill(prepared, tmp_path / "taught", tmp_path / "on", "rank=6", "steps=1",
+                 "learning-rate=1e-9")  # fmt: skip
+    assert missed(on) < 0.8 * seen
+
+
 def test_pairs_are_what_the_teacher_samples(prepared: Path, teacher: Path, tmp_path: Path) -> None:
     from src.train.train_distill import _read
 

@@ -28,6 +28,7 @@ NO_MODEL = (
     " `models` lists"
 )
 INT8_SCALE = ".int8_scale"
+ADAPTERS = ".adapters."  # in the names of adapters' weights
 SMALLEST = 1024  # numbers; smaller tensors, biases and norms among them, stay as they are
 
 

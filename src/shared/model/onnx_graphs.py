@@ -3,6 +3,7 @@
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
+import copy
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
@@ -15,13 +16,13 @@ import numpy as np
 from ..config_schema import ClipConfig, NetworkConfig
 from ..errors import UserError
 from ..tensors import Tensor, nn, torch
-from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
+from .checkpoint import ADAPTERS, INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
 from .clip.features import TextFeatures, null_features
 from .onnx_card import TextOnnxCard
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
 ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with an adapter, for texts that open one
-ADAPTERS = ".adapters."
+ONE_STEP = "one-step-"  # before both names: the same, learned to go from noise to motion at once
 
 
 def require_packages(*names: str) -> None:
@@ -148,6 +149,7 @@ class OnnxDenoiser(nn.Module):
     ) -> None:
         super().__init__()
         self.config, self.num_tags = config, card.no_tag
+        self._before, self._has_one_step = "", ONE_STEP + DENOISER_GRAPH in card.graphs
         self.shows_known, self.provenance_embed = card.shown, None
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
@@ -174,7 +176,9 @@ class OnnxDenoiser(nn.Module):
         if text.opened is not None:
             heard["adapter"] = self._adapters(tuple(map(tuple, text.opened.tolist())))
         (prediction,) = run(
-            self._session(DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH),
+            self._session(
+                self._before + (DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH)
+            ),
             x=noisy,
             t=timesteps,
             pooled=text.pooled,
@@ -184,6 +188,14 @@ class OnnxDenoiser(nn.Module):
             **heard,
         )
         return prediction
+
+    def in_one_step(self) -> "OnnxDenoiser | None":
+        """See `MotionDenoiser.in_one_step`."""
+        if not self._has_one_step:
+            return None
+        changed = copy.copy(self)
+        changed._before = ONE_STEP
+        return changed
 
     def text_keys_values(self, text: TextFeatures) -> list[Any]:
         """None: the graph makes them."""

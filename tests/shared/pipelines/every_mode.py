@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 NAMES = (
-    "prompts", "clauses", "held", "meanwhile", "ddpm", "dpm-solver++", "null", "timeline", "loop",
-    "path", "joints", "span", "ends", "stream",
+    "prompts", "clauses", "held", "meanwhile", "ddpm", "dpm-solver++", "one-step", "two-steps",
+    "null", "timeline", "loop", "path", "joints", "span", "ends", "stream",
 )  # fmt: skip
 
 
@@ -32,6 +32,10 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
     def passed(name: str, scale: float | None = None) -> list[Any]:
         sampling = Sampling(seed=2, steps=6, sampler=name, guidance_scale=scale)
         return make("a person kicks", seconds=1.5, sampling=sampling)
+
+    def at_once(steps: int) -> list[Any]:
+        sampling = Sampling(seed=2, steps=steps)
+        return make(["a person kicks", "a person walks"], seconds=1.5, sampling=sampling)
 
     def streamed() -> list[Any]:
         stream = generator.stream("a person walks", seconds=1.0, sampling=few)
@@ -57,6 +61,8 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
         lambda: make("a person walks while waving", seconds=2.0, sampling=few),
         lambda: passed("ddpm"),
         lambda: passed("dpm-solver++", 1.0),
+        lambda: at_once(1),
+        lambda: at_once(2),
         lambda: edited(edit_clip(clip, 0.5, 1.0), None),
         parted,
         lambda: [generator.timeline(two, loop=True, sampling=few).motion],

@@ -11,8 +11,10 @@ from torch import Tensor, nn
 from torch.nn.functional import one_hot, pad, silu
 
 from ...config_schema import PROVENANCES, NetworkConfig
+from ..checkpoint import ADAPTERS
 from ..clip.features import TextFeatures, null_features
 from ..layers.transformer import (
+    AdaptedLinear,
     CrossAttention,
     DenoiserBlock,
     KeyValue,
@@ -46,6 +48,55 @@ class FrameRefiner(nn.Module):
         return change.transpose(1, 2)  # [B, T, K*C]
 
 
+class OneStep(nn.Module):
+    """What a denoiser becomes, to go from noise to motion at once: low-rank changes of its matrices
+    and changes of its vectors, learned by distillation with guidance folded in (Meng et al. 2023).
+
+    Kept beside the weights, as Luo et al. 2023 (LCM-LoRA, section 3) do; starts as no change. The
+    matrices are those that see frames: of the blocks' maps, and the projections into and out of
+    them. Adapters stay what they are.
+    """
+
+    def __init__(self, denoiser: "MotionDenoiser", rank: int) -> None:
+        super().__init__()
+        self.down, self.up = nn.ParameterDict(), nn.ParameterDict()  # [r, D] and [D', r]
+        width, rows = denoiser.config.embed_dim, 0
+        for name, weight in denoiser.named_parameters():
+            if _seen_by_frames(denoiser, name):
+                key, (out_dim, dim) = name.replace(".", "_"), weight.shape
+                self.down[key] = nn.Parameter(torch.randn(rank, dim) * dim**-0.5)
+                self.up[key] = nn.Parameter(torch.zeros(out_dim, rank))
+            elif _is_vector(name, weight):
+                rows += -(-len(weight) // width)
+        self.shifts = nn.Parameter(torch.zeros(rows, width))  # of the vectors, one after another
+
+    def weights(self, denoiser: "MotionDenoiser") -> dict[str, Tensor]:
+        """The changed weights of the denoiser, by their names."""
+        found, at, width = dict[str, Tensor](), 0, self.shifts.shape[1]
+        for name, weight in denoiser.named_parameters():
+            if (key := name.replace(".", "_")) in self.down:
+                found[name] = weight + self.up[key] @ self.down[key]
+            elif _is_vector(name, weight):
+                rows = -(-len(weight) // width)
+                found[name] = weight + self.shifts[at : at + rows].flatten()[: len(weight)]
+                at += rows
+        return found
+
+
+def _seen_by_frames(denoiser: nn.Module, name: str) -> bool:
+    """Whether a parameter is a matrix that OneStep changes."""
+    whole, _, last = name.rpartition(".")
+    if last != "weight" or ADAPTERS in name:
+        return False
+    part = denoiser.get_submodule(whole)
+    return isinstance(part, AdaptedLinear) or whole in ("motion_proj", "known_proj", "output_proj")
+
+
+def _is_vector(name: str, weight: Tensor) -> bool:
+    """Whether a parameter is a vector that OneStep changes."""
+    return weight.ndim == 1 and not name.startswith(("null_", "one_step"))
+
+
 class MotionDenoiser(nn.Module):
     """Noisy motion, step, text and tag -> noise, clean motion or v, as the config says.
 
@@ -54,7 +105,8 @@ class MotionDenoiser(nn.Module):
 
     The output projection starts at zero, so the first prediction is the mean motion. With
     `frames-per-token` above 1 the blocks see so many frames as one token (the patches of Peebles
-    and Xie 2023, DiT, section 3.2, along time) and a FrameRefiner mends the seams.
+    and Xie 2023, DiT, section 3.2, along time) and a FrameRefiner mends the seams. With
+    `one-step-rank` it holds what it becomes for one step, see `in_one_step`.
     """
 
     def __init__(self, config: NetworkConfig, num_tags: int) -> None:
@@ -99,6 +151,8 @@ class MotionDenoiser(nn.Module):
         self.output_norm = nn.LayerNorm(dim)
         self.output_proj = zeroed(nn.Linear(dim, token_dim))
         self.refiner = FrameRefiner(motion_dim, dim // 2) if self.stride > 1 else None
+        rank = generation.one_step_rank
+        self.one_step = OneStep(self, rank) if rank else None
 
     def forward(
         self,
@@ -159,6 +213,22 @@ class MotionDenoiser(nn.Module):
             out = out + self.refiner(motion, out, frame_mask)  # [B, frames, K*C]
         result: Tensor = out.view_as(noisy)  # [B, frames, K, C]
         return result
+
+    def in_one_step(self) -> "MotionDenoiser | None":
+        """The network that goes from noise to motion at once, without guidance; None if that was
+        not learned."""
+        if self.one_step is None:
+            return None
+        generation = self.config.generation.model_copy(update={"one_step_rank": 0})
+        network = self.config.model_copy(update={"generation": generation})
+        changed = MotionDenoiser(network, self.num_tags)
+        with torch.no_grad():
+            changed.load_state_dict(self.plain_state() | self.one_step.weights(self))
+        return changed.to(self.null_pooled.device).eval().requires_grad_(False)
+
+    def plain_state(self) -> dict[str, Tensor]:
+        """The weights without what it becomes for one step."""
+        return {k: v for k, v in self.state_dict().items() if not k.startswith("one_step.")}
 
     def _tokens(self, values: Tensor) -> Tensor:
         """Rows of `stride` frames side by side: [B, frames, N] -> [B, T, stride * N]."""

@@ -5,6 +5,7 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, D embed dim,
 
 import logging
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
@@ -52,6 +53,7 @@ def sample_batch(
     sampler: str,
     steps: int | None,
     known: KnownBatch | None = None,
+    first: "MotionDenoiser | None" = None,
 ) -> Tensor:
     """Z-scored motions [B, T, K, C], T the longest of the batch; frames beyond a request's are
     to be cropped.
@@ -65,6 +67,7 @@ def sample_batch(
         sampler: ddim, ddpm or dpm-solver++; ddpm wants requests of one length.
         steps: None = as configured.
         known: what is given of the motions, padded to T.
+        first: makes the first step, unguided; None = `denoiser` does.
     """
     device = text.pooled.device
     rows, channels = denoiser.config.motion_rows, denoiser.config.generation.motion_channels
@@ -91,6 +94,10 @@ def sample_batch(
     condition = {"text": text, "tag": tag, "keys_values": own, **shared}
     no_condition = {"text": null, "tag": no_tag, "keys_values": none, **shared}
     model_fn = guided(denoiser, condition, no_condition, guidance_scale)
+    if first is not None:
+        begin, later = guided(first, condition, no_condition, 1.0), model_fn
+        top = diffusion.config.timesteps - 1
+        model_fn = lambda x_t, t: (begin if int(t[0]) == top else later)(x_t, t)  # noqa: E731
     noise = noise.to(device)
     if known is not None:
         model_fn = diffusion.held(
@@ -134,6 +141,7 @@ def _check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[in
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
 ON_CPU = 8  # of them on a CPU, whose caches hold no more
+MOST_FEW = 2  # steps that begin with a learned one
 ENCODED = 8  # lists of prompts whose encoding is remembered
 Progress = Callable[[int, int], None]  # motions done, motions in all
 
@@ -197,6 +205,10 @@ class TextToMotion:
         own = {name: getattr(self, name) for name in names} | {"device": str(self.device)}
         return TextToMotion(denoiser, **own | changed)
 
+    @cached_property
+    def _one_step(self) -> "MotionDenoiser | None":
+        return self.denoiser.in_one_step()
+
     @property
     def post_processor(self) -> MotionPostProcessor:
         """From raw features to motions, as this model is configured."""
@@ -232,9 +244,11 @@ class TextToMotion:
             tags: action labels beside the prompts, None for none.
             num_samples: motions a prompt.
             seed: 0 or more.
-            steps: sampling steps; what is None here and below is the model's own setting.
+            steps: sampling steps; what is None here and below is the model's own setting. Of one or
+                two the first is the one that the model has learned from its many, if it has; and
+                neither is guided, for guidance is part of what it learned.
             sampler: ddim, ddpm or dpm-solver++.
-            guidance_scale: 1 = no guidance.
+            guidance_scale: 1 = no guidance. Who gives it has every step made as in many.
             foot_lock: hold standing feet in place.
             constraints: what is given of each prompt's motions, as long as they are.
             steady: of each prompt's motions the columns of the root row that lose their mean,
@@ -310,6 +324,8 @@ class TextToMotion:
         text = self.encode_prompts(list(row_of))
         settings = self.network.generation
         sampler = sampler or settings.sampler
+        few = guidance_scale is None and (steps or settings.sampling_steps) <= MOST_FEW
+        first = self._one_step if few else None
         scale = settings.guidance_scale if guidance_scale is None else guidance_scale
         draws_on_the_way = sampler == "ddpm" or self.diffusion.config.eta > 0
         led = any(each is not None and each.beats is not None for each in given)
@@ -331,10 +347,11 @@ class TextToMotion:
                 self.diffusion,
                 chosen,
                 text[rows],
-                guidance_scale=scale,
+                guidance_scale=1.0 if first is not None else scale,
                 sampler=sampler,
                 steps=steps,
                 known=known,
+                first=first,
             )
             features = (z_scored * self.std + self.mean).cpu()
             for index, sample in zip(batch, features, strict=True):

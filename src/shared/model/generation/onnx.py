@@ -5,7 +5,8 @@ network that hears them, opened [B, A] for one with adapters, closeness [B] of a
 denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
 the entry is given) -> prediction. adapted.onnx hears the weights of each sample's adapter as well
-(onnx_graphs.py); denoiser.onnx is the same network where no text opens one.
+(onnx_graphs.py); denoiser.onnx is the same network where no text opens one. one-step-denoiser.onnx
+and one-step-adapted.onnx are both for a single step without guidance, if that was learned.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
@@ -16,6 +17,7 @@ from pathlib import Path
 
 import torch
 from torch import Tensor, nn
+from torch.func import functional_call
 
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
 from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
@@ -27,7 +29,7 @@ from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..layers.transformer import AdaptedLinear
 from ..onnx_card import TextOnnxCard, TokenizerInfo
 from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
-from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
+from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, ONE_STEP, TEXT_GRAPH
 from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser
 from .motion_generator import TextToMotion, as_captured
@@ -97,10 +99,14 @@ class DenoiserGraph(nn.Module):
     Args:
         denoiser: trained.
         more: names of its last inputs, of tokens, token_mask and adapter.
+        one_step: as it is for one step.
     """
 
-    def __init__(self, denoiser: MotionDenoiser, more: Sequence[str]) -> None:
+    def __init__(
+        self, denoiser: MotionDenoiser, more: Sequence[str], one_step: bool = False
+    ) -> None:
         super().__init__()
+        self.one_step = one_step
         self.denoiser, self.more = symbolic(denoiser, {AdaptedLinear: SymbolicAdapted}), more
         self.numbers = 0  # N, of the weights of an adapter
         for _, part in sorted(self.denoiser.named_modules()):
@@ -126,15 +132,15 @@ class DenoiserGraph(nn.Module):
         if tokens is None or token_mask is None:
             tokens = pooled[:, None]
             token_mask = torch.ones_like(pooled[:, :1], dtype=torch.bool)
-        result: Tensor = self.denoiser(
-            x,
-            t,
-            TextFeatures(pooled, tokens, token_mask, more.get("adapter")),
-            tag,
-            mask,
-            known=known if self.denoiser.shows_known else None,
-            provenance=as_captured(self.denoiser, tag),
-        )
+        text = TextFeatures(pooled, tokens, token_mask, more.get("adapter"))
+        told = {
+            "known": known if self.denoiser.shows_known else None,
+            "provenance": as_captured(self.denoiser, tag),
+        }
+        weights = dict[str, Tensor]()
+        if self.one_step and self.denoiser.one_step is not None:
+            weights = self.denoiser.one_step.weights(self.denoiser)
+        result: Tensor = functional_call(self.denoiser, weights, (x, t, text, tag, mask), told)
         return result
 
 
@@ -171,9 +177,10 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     if config.generation.adapter_ranks:
         numbers = DenoiserGraph(denoiser, ()).numbers
         variants[ADAPTED_GRAPH] = more | {"adapter": (torch.zeros(2, numbers), batch)}
+    kinds = ("", ONE_STEP) if denoiser.one_step is not None else ("",)
     networks = {
-        graph: traced(
-            DenoiserGraph(denoiser, list(heard)),
+        before + graph: traced(
+            DenoiserGraph(denoiser, list(heard), before == ONE_STEP),
             {
                 "x": (torch.randn(shape), whole),
                 "t": (torch.tensor([1, 2]), batch),
@@ -185,6 +192,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
             },
             ("prediction",),
         )
+        for before in kinds
         for graph, heard in variants.items()
     }
     card, tokenizer = generator.card, generator.tokenizer
@@ -196,7 +204,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         {TEXT_GRAPH: text, **networks},
         TextOnnxCard,
         card,
-        also_ready=tuple(networks),
+        also_ready=tuple(variants),
         process=process_info(generator.diffusion, config.generation.guidance_scale),
         mean=tuple(map(tuple, generator.mean.tolist())),
         std=tuple(map(tuple, generator.std.tolist())),

@@ -206,3 +206,35 @@ def test_provenance_can_be_learned_later(make_network):
         for each in (captured, procedural, unknown)
     ]
     assert all((a - b).abs().amax() > 1e-3 for a, b in pairwise([*told, out]))
+
+
+def test_what_it_becomes_for_one_step(make_network):
+    torch.manual_seed(0)
+    network = make_network(one_step_rank=2, adapter_ranks=(3,), constraints=True)
+    model = alive(MotionDenoiser(network, TAGS))
+    model.load_state_dict({**MotionDenoiser(network, TAGS).state_dict(), **model.plain_state()})
+    noisy, timesteps, features = inputs()
+    heard = (noisy, timesteps, features, torch.full((B,), TAGS))
+    known = torch.zeros(noisy.shape, dtype=torch.bool)
+
+    def once() -> torch.Tensor:
+        step = model.in_one_step()
+        assert step is not None and step.config.generation.one_step_rank == 0
+        assert step.in_one_step() is None
+        return step(*heard, known=known)
+
+    before = model(*heard, known=known)
+    assert torch.equal(once(), before)  # it starts as no change
+    assert model.one_step is not None
+    changed = model.one_step.weights(model)
+    assert not any("adapters" in name or "null_" in name for name in changed)
+    vectors = {name for name, weight in changed.items() if weight.ndim == 1}
+    assert {"output_proj.bias", "blocks.0.attention.qkv.bias"} <= vectors
+    for parameter in model.one_step.parameters():
+        torch.nn.init.normal_(parameter, std=0.2)
+    assert not torch.allclose(once(), before) and torch.equal(model(*heard, known=known), before)
+    for name, weight in model.one_step.weights(model).items():
+        change = (weight - model.get_parameter(name)).detach()
+        assert change.abs().max() > 0
+        if change.ndim == 2:
+            assert torch.linalg.matrix_rank(change, rtol=1e-4) <= 2

@@ -265,3 +265,29 @@ def test_sampled_motion_is_asked_to_look_captured(make_generator):
     with torch.no_grad():
         vectors[PROVENANCES.index("captured")] += 1.0
     assert not torch.allclose(sample(), before, atol=1e-3)
+
+
+def test_one_and_two_steps_begin_with_the_learned_one(make_generator):
+    generator = make_generator(one_step_rank=2)
+    with torch.no_grad():
+        for name, parameter in generator.denoiser.named_parameters():
+            if name.startswith("one_step."):
+                parameter.normal_(std=0.3)
+
+    calls = []
+    networks = {"learned": generator._one_step, "own": generator.denoiser}
+    for name, network in networks.items():
+        network.register_forward_pre_hook(
+            lambda _, given, name=name: calls.append((name, int(given[1][0]), len(given[0])))
+        )
+
+    def asked(**settings) -> list[tuple[str, int, int]]:
+        calls.clear()
+        generator.sample_features(["a person walks"], seconds=1.0, **settings)
+        return [*calls]
+
+    last = generator.diffusion.config.timesteps - 1
+    assert asked(steps=1) == [("learned", last, 1)]
+    assert [call[::2] for call in asked(steps=2)] == [("learned", 1), ("own", 1)]
+    assert {call[::2] for call in asked(steps=3)} == {("own", 2)}  # guided: a doubled batch
+    assert asked(steps=1, guidance_scale=2.0) == [("own", last, 2)]
