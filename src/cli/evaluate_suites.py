@@ -234,6 +234,7 @@ def evaluate_requests(
     out: Annotated[Path, typer.Option(help="Folder for requests.json and requests.md.")] = Path(
         "outputs/requests"
     ),
+    steps: options.Steps = None,
     seed: Annotated[int, typer.Option(help="Of sampling, and of the sentences drawn.")] = 0,
     threads: options.Threads = None,
     json: options.Json = False,
@@ -265,11 +266,14 @@ def evaluate_requests(
 
     set_threads(threads)
     generator = TextToMotion.from_pretrained(model, device="cpu")
+    settings = RequestSettings(
+        wordings=wordings, languages=codes, seconds=seconds, seed=seed, steps=steps
+    )
     report = evaluate_requests(
         SentenceGenerator(generator),
         PreparedData.open(data),
         floors={"untrained": untrained(generator, seed)},
-        settings=RequestSettings(wordings=wordings, languages=codes, seconds=seconds, seed=seed),
+        settings=settings,
         about={"model": model, "data": str(data)},
         progress=told("evaluate-requests"),
     )

@@ -37,7 +37,10 @@ Scheduler = Annotated[
     typer.Option(help="Of a Dask cluster that does the work, tcp://HOST:8786; local: one here."),
 ]
 Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
-Steps = Annotated[int | None, typer.Option(help="Sampling steps; the model's own.")]
+Steps = Annotated[
+    int | None,
+    typer.Option(help="Sampling steps; the model's own. 1 and 2 begin with one learned from many."),
+]
 Sampler = Annotated[str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")]
 GuidanceScale = Annotated[
     float | None, typer.Option(help="How strictly to follow the prompt; the model's own.")

@@ -278,7 +278,12 @@ class Generator(Protocol):
     """What is asked of a model; `SentenceGenerator` is one."""
 
     def generate(
-        self, prompts: Sequence[str], *, seconds: float | Sequence[float], seed: int
+        self,
+        prompts: Sequence[str],
+        *,
+        seconds: float | Sequence[float],
+        seed: int,
+        steps: int | None = None,
     ) -> list[Motion]: ...
 
 

@@ -68,8 +68,9 @@ class Requests(Yardstick):
 
     def make(self, texts: Sequence[str], by: Generator | None = None) -> Seen:
         """What a model, or the one in question, makes of these sentences."""
-        seconds, seed = self.settings.seconds, self.settings.seed
-        return Seen.of((by or self.model).generate(texts, seconds=seconds, seed=seed))
+        own = self.settings
+        maker = by or self.model
+        return Seen.of(maker.generate(texts, seconds=own.seconds, seed=own.seed, steps=own.steps))
 
     def obedience(self, rows: dict[str, Asked]) -> Grid:
         languages = self.settings.languages
@@ -119,7 +120,8 @@ class Requests(Yardstick):
         texts, labels = [r.text for r in told], [r.labels for r in told]
         found, seed = list[Asked](), self.settings.seed
         for draw in range(LENGTH_DRAWS if told else 0):
-            made = by.generate(texts, seconds=self.lengths(labels, draw), seed=seed + draw)
+            seconds = self.lengths(labels, draw)
+            made = by.generate(texts, seconds=seconds, seed=seed + draw, steps=self.settings.steps)
             found.append(Asked(told, Seen.of(made)))
         return found
 
@@ -229,7 +231,9 @@ class Requests(Yardstick):
             rows |= self._gestures(gestures, self.make([r.text for r in gestures]))
         rows["spread of a gesture, cm"] = self._spread_row(gestures)
         for seconds in LONG_WALKS:
-            walk = self.model.generate([WALK], seconds=seconds, seed=settings.seed)[0]
+            walk = self.model.generate(
+                [WALK], seconds=seconds, seed=settings.seed, steps=settings.steps
+            )[0]
             steps = np.linalg.norm(np.diff(walk.root_position[:, [0, 2]], axis=0), axis=-1)
             speed = float(steps.sum() / walk.seconds)
             rows[f"a walk of {seconds:g} s, m/s"] = GridRow({"share": speed}, 1)
@@ -258,7 +262,7 @@ class Requests(Yardstick):
         """How far apart motions of one sentence are over seeds, and captured clips of one label."""
         settings = self.settings
         prompts = [r.text for r in gestures if r.language == settings.languages[0]]
-        make = partial(self.model.generate, prompts, seconds=settings.seconds)
+        make = partial(self.model.generate, prompts, seconds=settings.seconds, steps=settings.steps)
         by_seed = [make(seed=seed) for seed in range(settings.variety_seeds)]
         made = [spread(list(motions)) for motions in zip(*by_seed, strict=True)]
         pairs = zip(self.records, self.real.motions, strict=True)

@@ -35,6 +35,7 @@ class RequestSettings:
     max_clips: int = 600  # captured clips of the reference
     min_matches: int = 10  # held-out clips with a request's labels, to take part in distances
     seed: int = 0
+    steps: int | None = None  # of sampling; None = the model's own
 
 
 @dataclass(frozen=True, eq=False)

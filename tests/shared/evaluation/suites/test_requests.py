@@ -19,7 +19,9 @@ from src.shared.evaluation.suites.yardstick import RequestSettings, Yardstick
 from src.shared.evaluation.tables import Grid
 from src.shared.motion.motion import Motion
 
-SETTINGS = RequestSettings(wordings=1, languages=("en",), seconds=3.0, max_clips=60, min_matches=1)
+SETTINGS = RequestSettings(
+    wordings=1, languages=("en",), seconds=3.0, max_clips=60, min_matches=1, steps=3
+)
 CAPTURED = {"walk", "run", "wave", "squat", "bow", "kick", "raise", "clap"}
 
 
@@ -42,14 +44,21 @@ class Puppet:
 
     def __init__(self, *, deaf: bool = False) -> None:
         self.lengths: set[tuple[str, float]] = set()  # seconds asked for, of each prompt
+        self.steps: set[int | None] = set()
         requests = load_requests(("en",))
         self.asked = {request.text: request for request in requests}
         others = [request for request in requests if request.action in CAPTURED]
         self.other = others[:: max(1, len(others) // 7)] if deaf else []
 
     def generate(
-        self, prompts: Sequence[str], *, seconds: float | Sequence[float], seed: int
+        self,
+        prompts: Sequence[str],
+        *,
+        seconds: float | Sequence[float],
+        seed: int,
+        steps: int | None = None,
     ) -> list[Motion]:
+        self.steps.add(steps)
         long = seconds if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         self.lengths |= {*zip(prompts, long, strict=True)}
         return [self._motion(prompt, row, long[row]) for row, prompt in enumerate(prompts)]
@@ -108,6 +117,7 @@ def test_distances_compare_motions_of_the_lengths_of_captured_clips(
     data: PreparedData, puppet: Puppet, tables: dict[str, Grid]
 ) -> None:
     yardstick = Yardstick(data, SETTINGS, lambda text: None)
+    assert puppet.steps == {SETTINGS.steps}  # each time
     usual = {SETTINGS.seconds, *LONG_WALKS, 4.0}
     others = [(puppet.asked[prompt], s) for prompt, s in puppet.lengths if s not in usual]
     assert len(others) > 2
