@@ -62,7 +62,7 @@ FLAGS = {
         " --song-seconds --songs --steps --style-songs --threads --track-seconds"
     ),
     "evaluate-requests": (
-        "--data --json --languages --model --out --seconds --seed --threads --wordings"
+        "--data --json --languages --model --out --seconds --seed --steps --threads --wordings"
     ),
     "evaluate-sanity": (
         "--data --decoder-checkpoint --device --diffusion-checkpoint --json --model --num-frames"
