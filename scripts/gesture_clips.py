@@ -28,11 +28,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from src.shared.data.synthetic.actions import pose_arm
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.data.synthetic.rig import (
-    ELBOW,
     FLEX,
     FPS,
     LEFT,
-    PRONATE,
     RIGHT,
     Array,
     Body,
@@ -105,6 +103,16 @@ def hand(
     pose_arm(body, side, weight, **reach(*at, elbow), pronate=pronate, wrist=wrist)
 
 
+def along(
+    body: Body, side: int, weight: Array, places: tuple[tuple[float, float, float], ...], way: Array
+) -> None:
+    """Bring a hand, by `weight`, onto a line of places; `way` [T] goes from -1 to 1 along it."""
+    knots = np.linspace(-1, 1, len(places))
+    poses = [reach(*at, DOWN) for at in places]
+    angles = {key: np.interp(way, knots, [pose[key] for pose in poses]) for key in poses[0]}
+    pose_arm(body, side, weight, **angles, pronate=10)
+
+
 # ------------------------------------------------------------ time
 
 
@@ -126,6 +134,19 @@ def beats(scene: Scene, period: float, rise: float) -> tuple[Array, float]:
     start, room = REST + rise, end_of(scene) - 2 * (REST + rise)
     number = max(1, int(room / period + 0.25))
     return np.clip((scene.t - start) / period, 0, number), number
+
+
+def strokes(
+    scene: Scene, lift: float, strike: float, stay: float = 0.15
+) -> tuple[Array, Array, Array]:
+    """What is lifted and struck down, in seconds: how far the arms are up from rest [T], of that
+    how high [T], and whether it has struck already [T]; a stroke at least, as many as fit in."""
+    period = lift + strike + stay
+    number = max(1, int((end_of(scene) - SOON - REST - 0.4) / period))
+    phase = np.clip((scene.t - SOON) / period, 0, number)
+    at = phase % 1.0 * period
+    high = min_jerk(at / (0.92 * lift)) - min_jerk((at - lift) / strike)
+    return held(scene, 0.8 * lift, 0.4, at=SOON), high, ramp(scene.t, SOON + lift, strike)
 
 
 def moment(scene: Scene, *keys: tuple[float, float]) -> Array:
@@ -457,116 +478,109 @@ def pull_lever(scene: Scene) -> Body:
 
 
 def open_door(scene: Scene) -> Body:
-    """A knob turned, a door pulled and passed by."""
+    """A step, a handle pressed, a door pulled in a wide arc and passed through."""
     body = scene.standing()
-    up = moment(scene, (0, 0), (0.75, 1), (2.0, 1), (2.7, 0))
-    knob = moment(scene, (0.75, 0), (1.0, 1), (1.9, 1), (2.1, 0))
-    pull = moment(scene, (1.05, 0), (1.8, 1), (2.05, 1), (2.7, 0.5))
-    hand(body, RIGHT, up, (-0.06, -0.24, 0.40), elbow=DOWN, pronate=30)
-    hand(body, RIGHT, up * pull, (0.30, -0.24, 0.10), elbow=BACK, pronate=30)
-    body.arms[:, RIGHT, PRONATE] -= np.radians(65) * knob
-    lean(body, 6 * up * (1 - pull), (10 - 32 * pull) * up)
-    nod_by(body, 8 * up, 12 * pull * up)
-    step(scene, body, RIGHT, 0.05, -0.24, SOON + 1.2)
+    up = moment(scene, (0.1, 0), (0.75, 1), (2.1, 1), (2.7, 0))
+    press = moment(scene, (0.75, 0), (1.0, 1), (1.8, 1), (2.1, 0))
+    pull = moment(scene, (1.0, 0), (1.75, 1), (2.1, 1), (9, 1))
+    hand(body, RIGHT, up, (0.02, -0.18, 0.47), elbow=(0.5, -1, 0.2), pronate=60)
+    hand(body, RIGHT, up * press, (0.02, -0.28, 0.41), elbow=(0.8, -0.6, 0.2), pronate=0)
+    hand(body, RIGHT, up * pull, (0.37, -0.32, 0.06), elbow=(0.6, -0.9, -0.2), pronate=20)
+    lean(body, 14 * up * (1 - pull), (14 - 40 * pull) * up, 6 * press * (1 - pull))
+    nod_by(body, 12 * up * (1 - pull), 10 * pull * up)
+    step(scene, body, RIGHT, 0.0, 0.26, SOON + 0.2)
+    step(scene, body, RIGHT, -0.06, -0.52, SOON + 1.05, 0.5)
+    step(scene, body, LEFT, 0.0, 0.44, SOON + 1.9, 0.42)
+    step(scene, body, RIGHT, 0.06, 0.90, SOON + 2.3, 0.5)
+    step(scene, body, LEFT, 0.0, 0.20, SOON + 2.75, 0.36)
     return body
 
 
 def hammer(scene: Scene) -> Body:
-    """The right hand strikes what the left holds."""
-    body, up = scene.standing(width=0.26), held(scene, 0.6)
-    phase, _ = beats(scene, 0.85, 0.5)
-    share = phase % 1.0
-    high = np.where(share < 0.6, min_jerk(share / 0.6), 1 - min_jerk((share - 0.6) / 0.25))
-    hand(body, LEFT, up, (-0.10, -0.30, 0.28), elbow=DOWN)
-    hand(body, RIGHT, up, (-0.08, -0.22, 0.34), elbow=DOWN, pronate=0)
-    hand(body, RIGHT, up * high, (0.16, 0.22, 0.14), elbow=(0.8, 0.2, 0.4), pronate=0)
-    lean(body, (16 - 9 * high) * up, -7 * high * up)
-    nod_by(body, 14 * up)
+    """Bent over a bench, a fist from beside the ear down to a nail that the left hand holds."""
+    body = scene.standing(width=0.3)
+    up, high, _ = strokes(scene, 0.62, 0.4, 0.18)
+    hand(body, LEFT, up, (-0.11, -0.10, 0.43), elbow=DOWN)
+    hand(body, RIGHT, up, (-0.09, -0.02, 0.46), elbow=DOWN, pronate=0)
+    hand(body, RIGHT, up * high, (0.06, 0.38, 0.0), elbow=(0.35, 0.6, 0.7), pronate=0)
+    lean(body, (40 - 18 * high) * up, -10 * high * up)
+    nod_by(body, 18 * up)
+    sink(body, 0.12 * up)
     return body
 
 
 def chop(scene: Scene) -> Body:
-    """Both hands from behind the head down to the ground."""
-    body, up = scene.standing(width=0.42), held(scene, 0.6)
-    phase, _ = beats(scene, 1.75, 0.5)
-    share = phase % 1.0
-    high = np.where(share < 0.62, min_jerk(share / 0.62), 1 - min_jerk((share - 0.64) / 0.17))
+    """Both hands with an axe from behind the head down to the knees."""
+    body = scene.standing(width=0.42)
+    up, high, _ = strokes(scene, 0.68, 0.46)
     for side in (LEFT, RIGHT):
-        hand(body, side, up, (-0.14, -0.30, 0.36), elbow=DOWN)
-        hand(body, side, up * high, (-0.13, 0.42, -0.02), elbow=(0.5, 0.8, 0.5))
-    lean(body, (46 - 56 * high) * up)
-    nod_by(body, 6 * up)
+        hand(body, side, up, (-0.15, 0.0, 0.47), elbow=DOWN)
+        hand(body, side, up * high, (-0.13, 0.40, -0.12), elbow=(0.5, 0.8, 0.5))
+    lean(body, (66 - 80 * high) * up)
+    nod_by(body, 10 * (1 - high) * up)
     sink(body, 0.16 * (1 - high) * up)
     return body
 
 
 def stab(scene: Scene) -> Body:
-    """A lunge with the right hand ahead."""
+    """A dagger raised high over the shoulder, driven down ahead with a lunge, pulled out."""
     body = scene.standing()
-    back = moment(scene, (0, 0), (0.6, 1), (0.75, 1), (0.95, 0))
-    out = moment(scene, (0.75, 0), (0.95, 1), (1.25, 1), (2.0, 0))
-    hand(body, RIGHT, back, (0.06, -0.22, -0.06), elbow=BACK, pronate=60)
-    hand(body, RIGHT, out, (-0.10, -0.02, 0.48), elbow=DOWN, pronate=60)
-    pose_arm(body, LEFT, back + out, flex=20, abduct=28, elbow=75)
-    lean(body, 4 * back + 18 * out, -26 * back + 30 * out)
-    nod_by(body, 0, 16 * back - 18 * out)
-    step(scene, body, RIGHT, 0.0, 0.46, SOON + 0.62, 0.32)
-    step(scene, body, RIGHT, 0.0, -0.46, SOON + 1.5, 0.42)
-    sink(body, 0.12 * out, back=-0.3)
+    up, high, lunge = strokes(scene, 0.68, 0.44, 0.16)
+    lunge = lunge * held(scene, 0.1, 0.4)
+    hand(body, RIGHT, up, (-0.07, -0.12, 0.48), elbow=DOWN, pronate=0)
+    hand(body, RIGHT, up * high, (0.05, 0.42, 0.0), elbow=(0.25, 0.75, 0.55), pronate=0)
+    pose_arm(body, LEFT, up, flex=12, abduct=28, elbow=70)
+    lean(body, (28 - 38 * high) * up, (22 - 42 * high) * up)
+    nod_by(body, 6 * up)
+    step(scene, body, RIGHT, 0.0, 0.50, SOON + 0.68, 0.42)
+    step(scene, body, RIGHT, 0.0, -0.50, end_of(scene) - REST - 0.42, 0.42)
+    sink(body, (0.15 - 0.07 * high) * lunge, back=-0.4)
     return body
 
 
-def aim(scene: Scene, body: Body, up: Array) -> None:
-    """Both hands ahead at the height of the eyes, by `up` [T]."""
-    for side in (LEFT, RIGHT):
-        hand(body, side, up, (-0.16, 0.12, 0.45), elbow=(0.3, -0.6, 0.8), pronate=0)
-    nod_by(body, 4 * up)
-    lean(body, 4 * up)
-    sink(body, 0.05 * up)
-
-
 def aim_gun(scene: Scene) -> Body:
-    """One foot back, a weapon in both hands, slowly along a line."""
-    body = scene.standing()
-    up = held(scene, 0.6)
-    stance(scene, body, RIGHT, 0.28)
-    aim(scene, body, up)
-    lean(body, turn=6 * np.sin(2 * np.pi * beats(scene, 2.6, 0.7)[0]) * up)
+    """Sideways, a rifle at the right shoulder, cheek on it, slowly along a line."""
+    body, up = scene.standing(), held(scene, 0.6)
+    pan = np.sin(2 * np.pi * beats(scene, 2.6, 0.7)[0]) * up
+    stance(scene, body, RIGHT, 0.34)
+    hand(body, LEFT, up, (0.24, 0.19, 0.39), elbow=(0.2, -0.8, 0.8), pronate=-40)
+    hand(body, RIGHT, up, (-0.17, 0.11, 0.13), elbow=(1.0, 0.25, -0.1), pronate=20)
+    body.yaw[:] += np.radians(-27) * up
+    lean(body, 8 * up, -27 * up + 12 * pan)
+    nod_by(body, 12 * up, 34 * up + 9 * pan, 22 * up)
+    sink(body, 0.05 * up)
     return body
 
 
 def shoot_gun(scene: Scene) -> Body:
-    """The same with a kick for each shot."""
-    body = scene.standing()
-    up = held(scene, 0.6)
-    stance(scene, body, RIGHT, 0.28)
-    aim(scene, body, up)
-    phase, _ = beats(scene, 0.75, 0.6)
-    share = phase % 1.0
-    kick = (
-        np.where(share < 0.5, 0, np.exp(-6 * (share - 0.5)) * min_jerk((share - 0.5) / 0.08)) * up
-    )
-    body.add_arms(FLEX, np.radians(17) * kick)
-    body.add_arms(ELBOW, np.radians(16) * kick)
-    lean(body, -6 * kick)
+    """Legs apart, a pistol at the end of both arms, which it kicks up at each shot."""
+    body, up = scene.standing(), held(scene, 0.6)
+    share = beats(scene, 0.9, 0.6)[0] % 1.0
+    kick = bump(np.clip((share - 0.3) / 0.7, 0, 1), peak=0.3) * up
+    step(scene, body, RIGHT, -0.26, -0.06, REST)
+    step(scene, body, RIGHT, 0.26, 0.06, end_of(scene) - REST - 0.36)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.15, 0.20, 0.45), elbow=(0.2, -0.8, 0.8), pronate=0)
+        hand(body, side, kick, (-0.15, 0.40, 0.30), elbow=(0.3, -0.4, 0.9), pronate=0)
+    nod_by(body, 4 * up)
+    lean(body, 8 * up - 14 * kick)
+    sink(body, 0.09 * up)
     return body
 
 
 def drive(scene: Scene) -> Body:
-    """Seated, the hands on a wheel that turns."""
-    body, wheel = scene.standing(width=0.26), beats(scene, 2.1, 0.0)[0]
-    turn = np.sin(2 * np.pi * wheel) * scene.params["amplitude"]
+    """Seated, the hands on a wheel, which they turn far to and fro."""
+    body, wheel = scene.standing(width=0.26), beats(scene, 1.55, 0.05)[0]
+    turn = np.sin(2 * np.pi * wheel) * held(scene, 0.5)
     body.position[:, 1] = 0.50
     body.ball[..., 2] += 0.46
     body.knee_out[:] += 0.15
-    one = np.ones_like(scene.t)
+    one, angle = np.ones_like(scene.t), np.radians(np.linspace(-75, 75, 9))
+    rim = tuple((0.21 * np.cos(a) - 0.17, 0.21 * np.sin(a) - 0.10, 0.37) for a in angle)
     for side in (LEFT, RIGHT):
-        lift = sign_of(side) * turn
-        hand(body, side, one, (-0.03, -0.16, 0.37), elbow=DOWN, pronate=10)
-        hand(body, side, np.clip(lift, 0, 1), (-0.08, -0.02, 0.38), elbow=DOWN, pronate=10)
-        hand(body, side, np.clip(-lift, 0, 1), (-0.07, -0.29, 0.34), elbow=DOWN, pronate=10)
-    lean(body, -6, 4 * turn)
-    nod_by(body, 2, 8 * turn)
+        along(body, side, one, rim, sign_of(side) * turn)
+    lean(body, -6, 5 * turn, 5 * turn)
+    nod_by(body, 2, 12 * turn)
     return body
 
 
@@ -697,19 +711,19 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "blow-kiss": (blow_kiss, 2.9, 4.5, ({},)),
     "cast-spell": (cast_spell, 2.9, 4.5, ({},)),
     "check-watch": (check_watch, 2.2, 4.5, ({},)),
-    "chop": (chop, 3.2, 5.0, ({},)),
+    "chop": (chop, 3.45, 5.0, ({},)),
     "cover-face": (cover_face, 2.6, 5.0, ({},)),
     "cross-arms": (cross_arms, 2.6, 5.0, ({},)),
     "dab": (dab, 2.0, 4.5, ({},)),
     "dodge": (dodge, 2.2, 4.5, DODGES),
     "drive": (drive, 2.5, 5.0, ({},)),
-    "hammer": (hammer, 2.8, 5.0, ({},)),
+    "hammer": (hammer, 3.25, 5.0, ({},)),
     "hands-on-hips": (hands_on_hips, 2.4, 5.0, ({},)),
     "hug": (hug, 3.2, 5.0, ({},)),
     "jumping-jacks": (jumping_jacks, 2.6, 5.0, ({},)),
     "laugh": (laugh, 2.8, 5.0, ({},)),
     "nod": (nod, 2.0, 4.5, ({},)),
-    "open-door": (open_door, 3.1, 4.7, ({},)),
+    "open-door": (open_door, 3.5, 5.0, ({},)),
     "pick-up": (pick_up, 3.1, 4.7, ({},)),
     "point": (point, 2.2, 4.5, SIDED),
     "pray": (pray, 2.6, 5.0, ({},)),
@@ -719,9 +733,9 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "salute": (salute, 2.2, 4.5, ({},)),
     "shake-head": (shake_head, 2.0, 4.5, ({},)),
     "shiver": (shiver, 2.8, 5.0, ({},)),
-    "shoot-gun": (shoot_gun, 2.6, 5.0, ({},)),
+    "shoot-gun": (shoot_gun, 2.8, 5.0, ({},)),
     "shrug": (shrug, 2.0, 4.5, ({},)),
-    "stab": (stab, 2.6, 4.5, ({},)),
+    "stab": (stab, 3.4, 5.0, ({},)),
     "stomp": (stomp, 2.6, 5.0, ({},)),
     "stretch": (stretch, 3.2, 5.0, ({},)),
     "talk": (talk, 2.8, 5.0, ({},)),

@@ -52,6 +52,8 @@ def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) 
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads
     options.log_severity_level = 3  # errors
+    # What runs in between, or another session's threads, wants the cores.
+    options.add_session_config_entry("session.force_spinning_stop", "1")
     if not spinning:
         options.add_session_config_entry("session.intra_op.allow_spinning", "0")
     options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
