@@ -39,7 +39,7 @@ Scheduler = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="The result as JSON on stdout.")]
 Steps = Annotated[
     int | None,
-    typer.Option(help="Sampling steps; the model's own. 1 and 2 begin with one learned from many."),
+    typer.Option(help="Sampling steps; the model's own. 1 and 2 begin with a learned one, if any."),
 ]
 Sampler = Annotated[str | None, typer.Option(help="ddim, ddpm or dpm-solver++; the model's own.")]
 GuidanceScale = Annotated[

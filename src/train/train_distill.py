@@ -103,6 +103,7 @@ class DistillTask(Task):
         if config.rank is not None:  # beside the teacher, which samples as it did
             before = self.teacher.network.generation
             own |= {"sampler": before.sampler, "timestep_spacing": before.timestep_spacing}
+            _check_teacher(config.init, self.teacher)
         generation = network.generation.model_copy(update=own)
         self.network = network = network.model_copy(update={"generation": generation})
         self.diffusion = GaussianDiffusion(network.generation.diffusion()).to(self.teacher.device)
@@ -126,8 +127,9 @@ class DistillTask(Task):
         self.frozen = (self.loss,)
 
     def _beginning(self) -> MotionDenoiser:
-        """A copy of the teacher's denoiser, or of a student's that was taught before."""
-        before = self.teacher
+        """A copy of the teacher's denoiser, or of a student's that was taught before; of one that
+        learned a step its step alone."""
+        before, rank = self.teacher, self.config.rank
         if self.config.student is not None:
             before = TextToMotion.from_pretrained(self.config.student, device="cpu")
             if tower_hash(before.text) != tower_hash(self.teacher.text):
@@ -135,13 +137,20 @@ class DistillTask(Task):
                     f"student {self.config.student} is not of init {self.config.init}: it has"
                     " another text tower; name its own teacher"
                 )
+            if rank not in (None, before.network.generation.one_step_rank):
+                raise UsageError(
+                    f"student {self.config.student} has no step of rank {rank}; leave it out, or"
+                    f" give rank={before.network.generation.one_step_rank or None}"
+                )
         student = MotionDenoiser(self.network, len(self.teacher.card.tags))
         state = before.denoiser.plain_state()
-        if self.config.rank is not None:  # and the step that it has, if it is of this rank
-            same = before.network.generation.one_step_rank == self.config.rank
-            state = student.state_dict() | (before.denoiser.state_dict() if same else state)
+        if rank is not None:
+            step = before.denoiser.state_dict().keys() - state.keys()
+            same = before.network.generation.one_step_rank == rank
+            own = {k: before.denoiser.state_dict()[k] for k in step} if same else {}
+            state = student.state_dict() | self.teacher.denoiser.plain_state() | own
         student.load_state_dict(state)
-        if self.config.rank is not None:
+        if rank is not None:
             for name, weight in student.named_parameters():
                 weight.requires_grad_(name.startswith("one_step."))
         return student
@@ -169,12 +178,15 @@ class DistillTask(Task):
         config, size = self.config, self.config.batch_size
         kept = {"seed", "teacher_steps", "student_steps", "batch_size", "condition_dropout",
                 "tag_dropout", "constraints", "min_frames", "max_frames", "balance",
-                "captured_share", "languages", "rank"}  # fmt: skip
+                "captured_share", "languages"}  # fmt: skip
         made_of = {
             "kept": f"aims, {SPACING}",
             **self.identity,
             **config.model_dump(mode="json", include=kept),
         }
+        if config.rank is not None:  # the teacher's own steps
+            made_of = {k: v for k, v in made_of.items() if not k.endswith("_steps")}
+            made_of["kept"] = "ends of its own steps"
         made = {"made-of": f"{mix_seed(str(sorted(made_of.items()))):x}"}
         for number in range(config.pair_batches):
             file = self._file("train", number)
@@ -322,7 +334,10 @@ class DistillTask(Task):
         learned = {
             "from": before.card.name,
             "steps": config.steps,
-            "teacher-steps": config.teacher_steps,
+            "rank": config.rank,
+            "teacher-steps": config.teacher_steps
+            if config.rank is None
+            else before.network.generation.sampling_steps,
             "guidance": before.network.generation.guidance_scale,
             "validation": self.figures,
         }
@@ -352,6 +367,20 @@ class LearnedStep(GuidedDenoiser):
         assert step is not None, "the network has no one-step-rank"
         output: Tensor = functional_call(self.denoiser, step.weights(self.denoiser), heard, told)
         return output
+
+
+def _check_teacher(init: str, teacher: TextToMotion) -> None:
+    """Raises UsageError where a model cannot learn one step beside its weights."""
+    settings, process = teacher.network.generation, teacher.diffusion.config
+    times = sampling_timesteps(process.timesteps, process.sampling_steps, process.timestep_spacing)
+    for wrong, remedy in (
+        (settings.sampler == "ddpm", "draws noise on the way; give it sampler: ddim"),
+        (times[0] < process.timesteps - 1, "does not begin at noise; give it timestep-spacing:"
+         f" {SPACING}"),
+        (len(times) <= 2, "takes so few steps itself; name its own teacher"),
+    ):  # fmt: skip
+        if wrong:
+            raise UsageError(f"rank goes to where init {init} ends, which {remedy}")
 
 
 def _is_made(file: Path, made_of: dict[str, str]) -> bool:

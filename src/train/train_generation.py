@@ -256,6 +256,8 @@ class GenerationTask(Task):
     can_be_captured = True
 
     def __init__(self, config: TrainGenerationConfig, network: NetworkConfig) -> None:
+        plain = network.generation.model_copy(update={"one_step_rank": 0})  # distilled, not trained
+        network = network.model_copy(update={"generation": plain})
         self.config, self.network = config, network
         source = config.clip or config.init or "runs/clip"
         self.tower, self.tokenizer = load_text_tower(source, network.embed_dim)

@@ -172,6 +172,8 @@ def test_what_cannot_be_distilled_says_why(prepared: Path, teacher: Path, tmp_pa
         network_of("starter-audio")
     with pytest.raises(UsageError, match="is not of init"):
         distill(prepared, teacher, tmp_path / "y", "student=starter", "steps=1")
+    with pytest.raises(UsageError, match="has no step of rank 5; leave it out, or give rank=None"):
+        distill(prepared, teacher, tmp_path / "z", f"student='{teacher}'", "rank=5", "steps=1")
     with pytest.raises(UsageError, match="choose a multiple of student-steps 3"):
         distill(prepared, teacher, tmp_path / "x", "student-steps=3")
     assert not (tmp_path / "x").exists()

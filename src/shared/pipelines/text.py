@@ -167,7 +167,7 @@ class SentenceGenerator:
                     was if does(was) or not does(new) else new
                     for was, new in zip(old, others, strict=True)]  # fmt: skip
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
-            if guidance_scale is None:
+            if guidance_scale is None and not self.generator.learned_step(steps):
                 scale = INSISTING * self.generator.network.generation.guidance_scale
         for index in (index for index, one in enumerate(fit) if not one):
             made[index] = []

@@ -271,7 +271,7 @@ def test_who_sits_down_stands_before_and_does_not_fall(starter: TextToMotion):
         height = motion.root_position[:, 1]
         ends = (height[:10].mean(), height[75:].mean())
         assert min(ends) < 0.7 and max(ends) > 0.9 and bool(ends[0] > ends[1]) is ("down" in text)
-        assert np.abs(np.diff(height)).max() * 30 < 1.3  # m/s; 2 where it is not led
+        assert np.abs(np.diff(height)).max() * 30 < 1.4  # m/s; 2 where it is not led
 
 
 def test_what_is_made_anew_is_sampled_until_it_shows(
@@ -439,12 +439,12 @@ def test_what_kinematics_miss_is_sampled_again(
 
     monkeypatch.setattr(starter, "generate", listening)
 
-    def made(check: Check) -> list[np.ndarray]:
+    def made(check: Check, steps: int | None = None) -> list[np.ndarray]:
         monkeypatch.setitem(ACTIONS, "jump", check)
         scales.clear()
         prompts = ["a person jumps", "a person walks forward"]
         sentences = SentenceGenerator(starter)
-        found = sentences.generate(prompts, seconds=2.0)
+        found = sentences.generate(prompts, seconds=2.0, steps=steps)
         refused.append(measure(found[0]))
         lines = [sentences.missed(*pair) for pair in zip(prompts, found, strict=True)]
         assert lines[1] is None and (lines[0] is None) == check(refused[-1])
@@ -460,6 +460,8 @@ def test_what_kinematics_miss_is_sampled_again(
     np.testing.assert_array_equal(never[0], first[0])  # where none will do the first one stays
     assert not np.array_equal(other[0], first[0])
     np.testing.assert_array_equal(other[1], first[1])
+    made(lambda m: False, steps=1)
+    assert scales == [None] * TRIES  # guidance is part of a learned step
 
 
 def test_so_many_times_is_so_many_times(starter: TextToMotion):

@@ -34,6 +34,7 @@ from ..clip.out_of_domain import OutOfDomainDetector, ScopeResult
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import TOKENIZER_FOLDER, PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
+from ..noise import sampling_timesteps
 from .constraint import Constraint, KnownBatch, SampleRequest, batches, make_requests
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def sample_batch(
         sampler: ddim, ddpm or dpm-solver++; ddpm wants requests of one length.
         steps: None = as configured.
         known: what is given of the motions, padded to T.
-        first: makes the first step, unguided; None = `denoiser` does.
+        first: makes the first step; None = `denoiser` does.
     """
     device = text.pooled.device
     rows, channels = denoiser.config.motion_rows, denoiser.config.generation.motion_channels
@@ -95,7 +96,11 @@ def sample_batch(
     no_condition = {"text": null, "tag": no_tag, "keys_values": none, **shared}
     model_fn = guided(denoiser, condition, no_condition, guidance_scale)
     if first is not None:
-        begin, later = guided(first, condition, no_condition, 1.0), model_fn
+        own, none = first.text_keys_values(text), first.text_keys_values(null)
+        condition, no_condition = (
+            {**told, "keys_values": kept} for told, kept in ((condition, own), (no_condition, none))
+        )
+        begin, later = guided(first, condition, no_condition, guidance_scale), model_fn
         top = diffusion.config.timesteps - 1
         model_fn = lambda x_t, t: (begin if int(t[0]) == top else later)(x_t, t)  # noqa: E731
     noise = noise.to(device)
@@ -209,6 +214,16 @@ class TextToMotion:
     def _one_step(self) -> "MotionDenoiser | None":
         return self.denoiser.in_one_step()
 
+    def learned_step(self, steps: int | None = None) -> "MotionDenoiser | None":
+        """What makes the first of so many steps, None of the model's own, instead of the denoiser,
+        if that was learned and there are one or two, from noise alone; neither wants guidance."""
+        process = self.diffusion.config
+        number = steps or process.sampling_steps
+        if self._one_step is None or number > MOST_FEW:
+            return None
+        times = sampling_timesteps(process.timesteps, number, process.timestep_spacing)
+        return self._one_step if times[0] == process.timesteps - 1 else None
+
     @property
     def post_processor(self) -> MotionPostProcessor:
         """From raw features to motions, as this model is configured."""
@@ -248,7 +263,8 @@ class TextToMotion:
                 two the first is the one that the model has learned from its many, if it has; and
                 neither is guided, for guidance is part of what it learned.
             sampler: ddim, ddpm or dpm-solver++.
-            guidance_scale: 1 = no guidance. Who gives it has every step made as in many.
+            guidance_scale: 1 = no guidance. Who gives another than 0 has every step made as in
+                many.
             foot_lock: hold standing feet in place.
             constraints: what is given of each prompt's motions, as long as they are.
             steady: of each prompt's motions the columns of the root row that lose their mean,
@@ -324,9 +340,10 @@ class TextToMotion:
         text = self.encode_prompts(list(row_of))
         settings = self.network.generation
         sampler = sampler or settings.sampler
-        few = guidance_scale is None and (steps or settings.sampling_steps) <= MOST_FEW
-        first = self._one_step if few else None
         scale = settings.guidance_scale if guidance_scale is None else guidance_scale
+        first = self.learned_step(steps) if guidance_scale in (None, 0) else None
+        if first is not None:
+            scale = min(scale, 1.0)  # as without: where no text is heard it is 0
         draws_on_the_way = sampler == "ddpm" or self.diffusion.config.eta > 0
         led = any(each is not None and each.beats is not None for each in given)
         samples: dict[int, Tensor] = {}
@@ -347,7 +364,7 @@ class TextToMotion:
                 self.diffusion,
                 chosen,
                 text[rows],
-                guidance_scale=1.0 if first is not None else scale,
+                guidance_scale=scale,
                 sampler=sampler,
                 steps=steps,
                 known=known,

@@ -291,3 +291,8 @@ def test_one_and_two_steps_begin_with_the_learned_one(make_generator):
     assert [call[::2] for call in asked(steps=2)] == [("learned", 1), ("own", 1)]
     assert {call[::2] for call in asked(steps=3)} == {("own", 2)}  # guided: a doubled batch
     assert asked(steps=1, guidance_scale=2.0) == [("own", last, 2)]
+    assert asked(steps=1, guidance_scale=0.0) == [("learned", last, 1)]  # no text is heard
+    generator.diffusion.config = generator.diffusion.config.model_copy(
+        update={"timestep_spacing": "leading"}
+    )
+    assert {name for name, *_ in asked(steps=2)} == {"own"}  # which does not begin at noise

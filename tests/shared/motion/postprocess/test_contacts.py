@@ -14,6 +14,9 @@ from src.shared.motion.postprocess.contacts import (
     MAX_REACH,
     ROLL,
     SWING,
+    UNDER,
+    _in_reach,
+    _on_floor,
     contact_runs,
     corrections,
     foot_shifts,
@@ -219,3 +222,24 @@ def test_running_feet_are_left_alone_and_told_of(speed: float, left_alone: bool)
         else (planted[:, 0] & stood).any()
     )
     assert (np.abs(shifts[..., 2]).max() == 0) == left_alone
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 2**32 - 1), st.integers(2, 40), st.integers(1, 7), st.floats(0.6, 0.92))
+def test_where_a_leg_reaches_is_what_trying_all_spans_finds(
+    seed: int, frames: int, shortest: int, height: float
+) -> None:
+    draws = np.random.default_rng(seed)
+    ball = np.cumsum(draws.normal(0, 0.02, (frames, 3)), 0)
+    hip = np.cumsum(draws.normal(0, 0.02, (frames, 3)), 0) + [0, height, 0]
+    found = _in_reach(ball, hip, 1, frames, shortest)
+
+    for first in range(1, frames - shortest + 1):
+        for last in range(frames, first + shortest - 1, -1):
+            for share in UNDER:
+                middle = (1 - share) * ball[first:last].mean(0) + share * hip[first:last].mean(0)
+                point = _on_floor(middle)
+                if np.linalg.norm(hip[first:last] - point, axis=1).max() <= MAX_REACH:
+                    assert found[1:] == (first, last) and np.array_equal(found[0], point)
+                    return
+    assert found[1:] == (1, 1)
