@@ -373,14 +373,20 @@ def _check_teacher(init: str, teacher: TextToMotion) -> None:
     """Raises UsageError where a model cannot learn one step beside its weights."""
     settings, process = teacher.network.generation, teacher.diffusion.config
     times = sampling_timesteps(process.timesteps, process.sampling_steps, process.timestep_spacing)
-    for wrong, remedy in (
-        (settings.sampler == "ddpm", "draws noise on the way; give it sampler: ddim"),
-        (times[0] < process.timesteps - 1, "does not begin at noise; give it timestep-spacing:"
-         f" {SPACING}"),
-        (len(times) <= 2, "takes so few steps itself; name its own teacher"),
-    ):  # fmt: skip
+    for wrong, why, remedy in (
+        (settings.sampler == "ddpm", "draws noise on the way", "give it sampler: ddim"),
+        (
+            times[0] < process.timesteps - 1,
+            "does not begin at noise",
+            f"give it timestep-spacing: {SPACING}",
+        ),
+        (len(times) <= 2, "takes as few steps itself", "name its own teacher"),
+    ):
         if wrong:
-            raise UsageError(f"rank goes to where init {init} ends, which {remedy}")
+            raise UsageError(
+                f"rank is of a step to where init {init} ends, which {why}; {remedy}, or leave"
+                " rank out"
+            )
 
 
 def _is_made(file: Path, made_of: dict[str, str]) -> bool:
