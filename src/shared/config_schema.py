@@ -388,9 +388,7 @@ class TrainDistillConfig(TrainConfig):
 
     init: str = "starter"  # the teacher
     student: str | None = None  # taught before, to go on from; None = it begins as the teacher
-    rank: int | None = Field(
-        None, ge=1
-    )  # of a learned step beside the teacher's weights; see there
+    rank: int | None = Field(None, ge=1)  # of a learned step; None = a student of its own
     teacher_steps: int = Field(8, ge=1)
     student_steps: int = Field(2, ge=1)
     pair_batches: int = Field(200, ge=0)  # of batch-size motions that the teacher samples; 0: as
