@@ -91,8 +91,7 @@ def _in_processes(
             for future in futures.as_completed(pending):
                 yield pending[future], future.result()
         except BaseException as error:
-            pool.shutdown(wait=False, cancel_futures=True)
-            lifeline.close()
+            lifeline.close()  # ends the workers, so that leaving the pool waits for none of them
             if isinstance(error, BrokenProcessPool):
                 raise UserError(
                     "a worker process was killed, most likely because memory ran out; give fewer"
