@@ -42,7 +42,7 @@ from ..motion.features import (
     without_drift,
 )
 from ..motion.motion import Motion
-from ..motion.postprocess.whole import rest_to_rest, until_landed
+from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free, held
 from .path import (
@@ -255,11 +255,12 @@ class SentenceGenerator:
         return (YAW_RATE,) if self._by_arms(text) else ()
 
     def _rested(self, motion: Motion, *texts: str, held: bool = False) -> Motion:
-        """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture; its
-        end is left as it is where that is `held`."""
-        gestures = () if self.scope is None else self.scope.gestures
-        asked = any(self._nearest(text) in gestures for text in texts)
-        return rest_to_rest(motion, held=held) if asked else motion
+        """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture, its
+        end as it is where that is `held`; with hands that meet, if the only one asks for claps."""
+        actions = [self._nearest(text) for text in texts]
+        if self.scope is not None and {*actions} & {*self.scope.gestures}:
+            motion = rest_to_rest(motion, held=held)
+        return hands_meet(motion, 0, motion.num_frames) if actions == ["clap"] else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows the action that is nearest to a text, on the side that it names;
@@ -287,8 +288,9 @@ class SentenceGenerator:
 
         def miss(features: Tensor) -> float:
             motion = decode_features(features, fps=fps)
-            if pace > 1:  # smoothed, hands may not meet
+            if pace > 1:  # as hands meet that are smoothed
                 motion = self.generator.post_processor(hastened(features, pace), None)
+                motion = hands_meet(motion, 0, motion.num_frames)
             seen = measure(motion)
             found = float(wanted is not None and not wanted(seen))
             if found and wanted and len(features) > latest:
@@ -482,11 +484,9 @@ class SentenceGenerator:
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
-            if (
-                part.count > 1
-                and self._by_arms(part.text)
-                and self._nearest(part.text) not in REPETITIONS
-            ):
+            if (action := self._nearest(part.text)) == "clap":
+                motion = hands_meet(motion, start, stop)
+            elif part.count > 1 and self._by_arms(part.text) and action not in REPETITIONS:
                 # nothing but arms that hang in between tells one wave from the next
                 joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
                 motion = rest_to_rest(motion, joins)

@@ -116,7 +116,7 @@ function heelRise(hip, ball, lever, longest) {
   return axisTurn(unit(axis), clamp(angle - Math.acos(clamp(cosine, -1, 1)), 0, MAX_RISE));
 }
 
-function twoBones(hip, thigh, shin, upper, lower, target) {
+export function twoBones(hip, thigh, shin, upper, lower, target) {
   const lengthUpper = norm(upper), lengthLower = norm(lower);
   const before = norm(add(apply(thigh, upper), apply(shin, lower)));
   const longest = Math.max(before, MAX_STRETCH * LEG_LENGTH);

@@ -6,13 +6,13 @@ export const JOINTS = 22;
 export const FPS = 30;
 export const SKELETON = { names: [], parents: [], offsets: [] };
 export const INDEX = {};
-export let REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT, LEG_LENGTH, FEET, LEGS, GROUPS;
+export let REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT, LEG_LENGTH, FEET, LEGS, ARMS, GROUPS;
 
 /** Take the skeleton from the page's data; once, before all else. */
 export function useSkeleton({ names, parents, offsets, tips, limbs, groups }) {
   Object.assign(SKELETON, { names, parents, offsets, tips });
   names.forEach((name, index) => { INDEX[name] = index; });
-  LEGS = ["left-leg", "right-leg"].map((leg) => limbs[leg].map((name) => INDEX[name]));
+  [LEGS, ARMS] = ["leg", "arm"].map((limb) => ["left", "right"].map((side) => limbs[`${side}-${limb}`].map((name) => INDEX[name])));
   FEET = LEGS.map(([, , ankle, ball]) => ({ ankle, ball }));
   GROUPS = groups;
   REST_FOOT_HEIGHT = 0.02;

@@ -2,14 +2,14 @@
 // stitching.py in src/shared/motion/postprocess, which say why.
 
 import {
-  conjugate, continuous, expOf, logOf, matrixOf, matrixOf6d, multiply, product, quaternionOf, headingAngle,
-  scale, slerp, transposed, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
+  add, conjugate, continuous, expOf, logOf, matrixOf, matrixOf6d, multiply, product, quaternionOf, headingAngle,
+  norm, scale, slerp, sub, transposed, unit, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
 } from "./rotations.js";
 import {
   decodeFeatures, framesOf, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
 } from "./features.js";
-import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet } from "./footskate.js";
-import { FPS, INDEX, JOINTS, pose } from "./skeleton.js";
+import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet, twoBones } from "./footskate.js";
+import { ARMS, FPS, INDEX, JOINTS, pose, SKELETON } from "./skeleton.js";
 
 /** Average over time of [T,R,C]; the ends repeat, contacts stay. */
 export function smoothFeatures(features, weights) {
@@ -90,6 +90,56 @@ export function restToRest(motion, cuts = null, held = false) {
     }
   }
   return { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };
+}
+
+// ---------------------------------------------------------------- hands that meet
+
+const TOUCH = 0.09, NEAR = 0.35, SWING = 0.15;
+
+/** Hands that touch where they clap in frames [start, stop) and do not quite. */
+export function handsMeet(motion, start = 0, stop = motion.frames) {
+  const poses = Array.from({ length: stop - start }, (_, t) => pose(motion, start + t));
+  const between = poses.map(({ positions }) => sub(positions[ARMS[1].at(-1)], positions[ARMS[0].at(-1)]));
+  const closer = lacking(between.map(norm)), quaternions = motion.quaternions.slice();
+  if (!closer.some(Boolean)) return motion;
+  for (const [t, { positions, world }] of poses.entries()) {
+    if (!closer[t]) continue;
+    for (const [i, [collar, shoulder, elbow, wrist]] of ARMS.entries()) {
+      const target = add(positions[wrist], scale(unit(between[t]), ((i ? -1 : 1) * closer[t]) / 2));
+      const [upper, lower] = twoBones(positions[shoulder], world[shoulder], world[elbow], SKELETON.offsets[elbow], SKELETON.offsets[wrist], target);
+      const chain = [world[collar], upper, lower, world[wrist]];
+      for (const [k, joint] of [shoulder, elbow, wrist].entries())
+        quaternions.set(quaternionOf(multiply(transposed(chain[k]), chain[k + 1])), ((start + t) * JOINTS + joint) * 4);
+    }
+  }
+  return { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };
+}
+
+/** Metres by which the gap of the wrists is to be less in each frame. */
+function lacking(gap) {
+  const claps = [], closer = gap.map(() => 0);
+  let low = 0, high = 0, falls = false;
+  for (const [t, value] of gap.entries()) {
+    if (value < gap[low]) low = t;
+    if (value > gap[high]) high = t;
+    if (falls && value - gap[low] >= SWING) {
+      if (gap[low] < NEAR) claps.push(low);
+      [falls, high] = [false, t];
+    } else if (!falls && gap[high] - value >= SWING) [falls, low] = [true, t];
+  }
+  const ends = [0, ...claps, gap.length - 1];
+  const widest = ends.slice(1).map((end, i) => {
+    let most = ends[i];
+    for (let t = most + 1; t <= end; t++) if (gap[t] > gap[most]) most = t;
+    return most;
+  });
+  for (const [i, least] of claps.entries())
+    for (const wide of [widest[i], widest[i + 1]])
+      for (let t = Math.min(least, wide); t <= Math.max(least, wide); t++) {
+        const share = (gap[wide] - gap[t]) / (gap[wide] - gap[least]);
+        closer[t] = Math.min(Math.max(share, 0), 1) * Math.max(gap[least] - TOUCH, 0);
+      }
+  return closer;
 }
 
 // ---------------------------------------------------------------- seams

@@ -5,7 +5,7 @@ import { cut, decodeFeatures, FORWARD, framesOf, hastened, HEIGHT, joinArrays, L
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
-import { postProcess, restToRest } from "../body/whole.js";
+import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
@@ -194,7 +194,8 @@ export class Director {
     const motion = postProcess(features, this.settings.post, { text });
     let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
     for (const [i, { count, text }] of parts.entries())
-      if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
+      if (this.nearest(text) === "clap") rested = handsMeet(rested, shown[i], shown[i] + lengths[i]);
+      else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
         const joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((lengths[i] * (k + 1)) / count));
         rested = restToRest(rested, joins.map((at) => shown[i] + at));
       }
@@ -371,7 +372,9 @@ export class Director {
   }
 
   rested(motion, texts, held = false) {
-    return texts.some((text) => this.scope.meta.gestures.includes(this.nearest(text))) ? restToRest(motion, null, held) : motion;
+    const actions = texts.map((text) => this.nearest(text));
+    if (actions.some((action) => this.scope.meta.gestures.includes(action))) motion = restToRest(motion, null, held);
+    return String(actions) === "clap" ? handsMeet(motion) : motion;
   }
 
   wanted(text) {
@@ -394,7 +397,7 @@ export class Director {
     const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = this.pace(clause);
     if (wanted === null && !rests) return null;
     return (features) => {
-      const motion = pace > 1 ? postProcess(hastened(features, pace), this.settings.post, {}) : decodeFeatures(features); // smoothed, hands may not meet
+      const motion = pace > 1 ? handsMeet(postProcess(hastened(features, pace), this.settings.post, {})) : decodeFeatures(features);
       const seen = measure(motion), made = framesOf(features);
       const count = clause.count > 1 || (frames <= ONCE[1] * FPS && this.isSingle(clause)) ? repetitions(action, seen, side) : null;
       let found = Number(wanted !== null && !wanted(seen));

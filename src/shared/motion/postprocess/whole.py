@@ -1,5 +1,5 @@
 """From sampled features to a motion: smoothing, Gram–Schmidt, quaternions, clamp, foot lock; arms
-that hang at both ends.
+that hang at both ends, hands that meet.
 
 TEXT, inference only. Order: depthwise smoothing → Gram–Schmidt → quaternion → optional velocity
 clamp → optional footskate clean-up. `streaming.py` does the same piece by piece.
@@ -10,6 +10,7 @@ Letters: B batch, T frames, R = K bones and, with a root track, one row more; C 
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from ...tensors import F, Tensor, nn, torch
 from ..features import LEFT_CONTACT, ORIGIN, ROOT_ROW, Place, decode_features, headings
 from ..motion import Motion
 from ..rotations import (
+    forward_kinematics,
+    matrix_to_quaternion,
     matrix_to_rotation_6d,
     quaternion_conjugate,
     quaternion_continuous,
@@ -29,8 +32,8 @@ from ..rotations import (
     rotation_6d_to_matrix,
     yaw_to_matrix,
 )
-from ..skeleton import JOINT_INDEX
-from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet
+from ..skeleton import JOINT_INDEX, LIMBS, PARENTS, canonical_skeleton
+from .footskate import ease_from_kept, kept_legs, lock_carried_feet, lock_feet, two_bone_ik
 
 
 def smoothing_weights(config: PostProcessingConfig) -> list[float]:
@@ -225,6 +228,69 @@ def rest_to_rest(
         quaternions[at, joints[:, None]] = moved.numpy()
     signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
     return replace(motion, quaternions=signed)
+
+
+# ---------------------------------------------------------------- hands that meet
+
+TOUCH, NEAR, SWING = 0.09, 0.35, 0.15  # metres of wrists: hands touch, nearly do; swing
+ARMS = [[JOINT_INDEX[joint] for joint in LIMBS[arm]] for arm in ("left-arm", "right-arm")]
+
+
+def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
+    """The motion with hands that touch where they clap in frames [start, stop) and do not quite.
+
+    A clap is where the gap of the wrists has fallen by SWING or more to less than NEAR, and rises
+    by as much again. Between the widest gaps before and after it is stretched in proportion, so
+    that its least is TOUCH: both hands move by half of what is lacking, along the line between
+    them. Hands keep their world rotation; claps that are nearer stay as they are.
+    """
+    quaternions = torch.as_tensor(motion.quaternions[start:stop], dtype=torch.float64)
+    root = torch.as_tensor(motion.root_position[start:stop], dtype=torch.float64)
+    offsets = torch.as_tensor(canonical_skeleton().offsets, dtype=torch.float64)
+    positions, world = forward_kinematics(quaternion_to_matrix(quaternions), root, offsets, PARENTS)
+    between = positions[:, ARMS[1][-1]] - positions[:, ARMS[0][-1]]  # T 3
+    lacking = torch.as_tensor(_lacking(between.norm(dim=-1).numpy()))
+    at = torch.nonzero(lacking)[:, 0]
+    if not len(at):
+        return motion
+    step = (lacking[:, None] * F.normalize(between, dim=-1))[at] / 2
+    for (collar, shoulder, elbow, wrist), way in zip(ARMS, (1, -1), strict=True):
+        upper, lower = two_bone_ik(
+            positions[at, shoulder],
+            world[at, shoulder],
+            world[at, elbow],
+            offsets[elbow],
+            offsets[wrist],
+            positions[at, wrist] + way * step,
+        )
+        above = torch.stack((world[at, collar], upper, lower), 1)
+        below = torch.stack((upper, lower, world[at, wrist]), 1)
+        solved = matrix_to_quaternion(above.swapaxes(-1, -2) @ below)
+        quaternions[at[:, None], torch.tensor([shoulder, elbow, wrist])] = solved
+    moved = motion.quaternions.copy()
+    moved[start + at] = quaternions[at].float().numpy()
+    return replace(motion, quaternions=quaternion_continuous(torch.as_tensor(moved), dim=0).numpy())
+
+
+def _lacking(gap: np.ndarray) -> np.ndarray:
+    """Metres [T] by which the gap of the wrists [T] is to be less, that each clap is one."""
+    claps, low, high, falls = list[int](), 0, 0, False
+    for t, value in enumerate(gap):
+        low, high = (t if value < gap[low] else low), (t if value > gap[high] else high)
+        if falls and value - gap[low] >= SWING:
+            claps += [low] if gap[low] < NEAR else []
+            falls, high = False, t
+        elif not falls and gap[high] - value >= SWING:
+            falls, low = True, t
+    ends = [0, *claps, len(gap) - 1]
+    widest = [a + int(np.argmax(gap[a : b + 1])) for a, b in pairwise(ends)]
+    lacking = np.zeros(len(gap))
+    for least, around in zip(claps, pairwise(widest), strict=True):
+        for wide in around:
+            span = slice(min(least, wide), max(least, wide) + 1)
+            share = (gap[wide] - gap[span]) / (gap[wide] - gap[least])
+            lacking[span] = share.clip(0, 1) * max(gap[least] - TOUCH, 0)
+    return lacking
 
 
 SETTLED = 0.1  # seconds of a foot that has landed

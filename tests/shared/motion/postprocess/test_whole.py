@@ -11,13 +11,21 @@ from scipy.ndimage import convolve1d
 
 from src.shared.config_schema import PostProcessingConfig
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.metrics.measurements import arms_alone, at_rest, ends_at_rest, rests_in_place
+from src.shared.metrics.measurements import (
+    arms_alone,
+    at_rest,
+    ends_at_rest,
+    measure,
+    rests_in_place,
+)
 from src.shared.motion.features import decode_features, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.whole import (
     REST_FADE,
+    TOUCH,
     MotionPostProcessor,
     clamp_velocity,
+    hands_meet,
     rest_to_rest,
     smooth_features,
     smoothing_weights,
@@ -28,6 +36,7 @@ from src.shared.motion.rotations import (
     quaternion_exp,
     quaternion_log,
     quaternion_multiply,
+    quaternion_slerp,
 )
 from src.shared.motion.skeleton import JOINT_INDEX, NUM_JOINTS, REST_PELVIS_HEIGHT
 
@@ -237,3 +246,46 @@ def test_so_many_steps_end_where_the_last_foot_has_landed() -> None:
     assert until_landed(motion, 2, 40, 25).num_frames == 48  # of the last 40 frames
     assert until_landed(motion, 5, 60, 20).num_frames == 20
     assert until_landed(motion, 0, 60, 20) is motion
+
+
+def clapping(swing: float) -> Motion:
+    """Three claps whose arms go from how they are widest apart by a share of their way."""
+    motion = generate_clip(spec_for({"action": "clap", "count": "3"}, 0), seed=0)
+    gap = wrist_gap(motion)
+    arms = [JOINT_INDEX[f"{side}_{joint}"] for side in "lr" for joint in ("shoulder", "elbow")]
+    first, last = np.flatnonzero(gap < 0.2)[[0, -1]]
+    wide = first + int(np.argmax(gap[first:last]))
+    quaternions = torch.as_tensor(motion.quaternions)
+    apart = quaternions[wide : wide + 1, arms].expand(len(quaternions), -1, -1)
+    quaternions[:, arms] = quaternion_slerp(apart, quaternions[:, arms], torch.tensor(swing))
+    return replace(motion, quaternions=quaternions.numpy())
+
+
+def wrist_gap(motion: Motion) -> np.ndarray:
+    positions = motion.positions()
+    left, right = (positions[:, JOINT_INDEX[f"{side}_wrist"]] for side in "lr")
+    return np.asarray(np.linalg.norm(left - right, axis=-1))
+
+
+def test_hands_that_nearly_clap_meet() -> None:
+    loose = clapping(0.6)
+    assert measure(loose).claps == 0 and wrist_gap(loose).min() > 0.17
+    met = hands_meet(loose, 0, loose.num_frames)
+    gap, before = wrist_gap(met), wrist_gap(loose)
+    assert measure(met).claps == 3 and gap.min() == pytest.approx(TOUCH, abs=2e-3)
+    assert (gap <= before + 1e-5).all() and np.abs(np.diff(gap, 2)).max() < 0.1
+    moved = [JOINT_INDEX[f"{s}_{name}"] for s in "lr" for name in ("shoulder", "elbow", "wrist")]
+    others = [joint for joint in range(NUM_JOINTS) if joint not in moved]
+    assert np.array_equal(met.quaternions[:, others], loose.quaternions[:, others])
+    for wrist in (JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]):  # hands turn as they did
+        turned = [motion.kinematics()[1][:, wrist] for motion in (loose, met)]
+        assert np.allclose(*turned, atol=1e-4)
+
+
+def test_hands_are_left_alone_outside_the_claps_and_where_they_touch() -> None:
+    loose, close = clapping(0.6), clapping(1.0)
+    part = hands_meet(loose, 0, 20)
+    assert np.array_equal(part.quaternions, loose.quaternions)
+    assert np.abs(wrist_gap(hands_meet(close, 0, close.num_frames)) - wrist_gap(close)).max() < 0.03
+    stand = some_motion()
+    assert hands_meet(stand, 0, stand.num_frames) is stand
