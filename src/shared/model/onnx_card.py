@@ -105,10 +105,12 @@ class TextOnnxCard(OnnxCard):
         null_token: of a network that hears tokens [D]; None otherwise.
         tags: action labels; `no_tag` is the index of none.
         shown: whether known entries are shown to the network, or only held.
+        shifted: the vectors, in the order of the rows of its shifts, that a model changes which
+            learned to go from noise to motion at once; empty for others.
         max_seconds: of the longest clip it learned from; `min_frames` are needed.
     """
 
-    format_version: Literal[3] = 3  # 2 held all adapters in the graph
+    format_version: Literal[4] = 4  # 3 had graphs of their own for one step
     kind: Literal["motion-generator"] = "motion-generator"
     mean: tuple[tuple[float, ...], ...]
     std: tuple[tuple[float, ...], ...]
@@ -118,6 +120,7 @@ class TextOnnxCard(OnnxCard):
     no_tag: int
     languages: tuple[str, ...] = ()
     shown: bool
+    shifted: tuple[str, ...] = ()
     max_seconds: float | None = None
     min_frames: int
     tokenizer: TokenizerInfo

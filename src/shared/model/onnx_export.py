@@ -10,6 +10,7 @@ import inspect
 import logging
 import shutil
 import warnings
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -239,25 +240,39 @@ def ready(model: Any, folder: Path) -> dict[str, Any]:
     versions = [each for each in found.opset_import if each.domain in used]
     found.ClearField("opset_import")
     found.opset_import.extend(versions)
-    known, names = _known(folder), list[str]()
+    known, names = _all_known(folder), dict[str, str]()  # what they are called: their names
     for each in found.graph.initializer:
-        name, turned = known.get(_digest(onnx.numpy_helper.to_array(each)), ("", False))
-        if name and each.data_type == onnx.TensorProto.FLOAT:
-            names.append(name + TURNED * turned)
+        alike = known.get(_digest(onnx.numpy_helper.to_array(each)), [])
+        if alike and each.data_type == onnx.TensorProto.FLOAT:
+            name = each.name if each.name in alike else alike[0]
+            alike.remove(name)
+            names[each.name] = name
             each.ClearField("raw_data")
             each.data_location = onnx.TensorProto.EXTERNAL
-            each.external_data.add(key="location", value=names[-1])
-    return {"model": found, "weights": tuple(names)}
+            each.external_data.add(key="location", value=name)
+            each.name = name
+    for node in found.graph.node:
+        node.input[:] = [names.get(each, each) for each in node.input]
+    return {"model": found, "weights": tuple(names.values())}
 
 
 def _known(folder: Path) -> dict[str, tuple[str, bool]]:
     """Digests of a folder's tensors, as they are and transposed: their names, and which it is."""
     known = dict[str, tuple[str, bool]]()
+    for digest, names in _all_known(folder).items():
+        name = max(reversed(names), key=lambda each: not each.endswith(TURNED))
+        known[digest] = (name.removesuffix(TURNED), name.endswith(TURNED))
+    return known
+
+
+def _all_known(folder: Path) -> dict[str, list[str]]:
+    """The same with all that are alike: their names, TURNED behind those that are transposed."""
+    known = defaultdict[str, list[str]](list)
     for name, tensor in read_tensors(folder, read_card(folder)).items():
         value = tensor.numpy()
-        known[_digest(value)] = (name, False)
+        known[_digest(value)].append(name)
         if value.ndim == 2:
-            known.setdefault(_digest(value.T), (name, True))
+            known[_digest(value.T)].append(name + TURNED)
     return known
 
 

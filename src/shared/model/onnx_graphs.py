@@ -4,9 +4,9 @@ Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -18,11 +18,12 @@ from ..errors import UserError
 from ..tensors import Tensor, nn, torch
 from .checkpoint import ADAPTERS, INT8_SCALE, WEIGHTS_FILE, ModelCard, read_tensors
 from .clip.features import TextFeatures, null_features
-from .onnx_card import TextOnnxCard
+from .onnx_card import READY, TURNED, TextOnnxCard
 
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
 ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with an adapter, for texts that open one
-ONE_STEP = "one-step-"  # before both names: the same, learned to go from noise to motion at once
+STEP = "denoiser.one_step."  # before the names of what changes it for a single step
+SESSIONS = 6  # at most that are open: adapters, with one step and without
 
 
 def require_packages(*names: str) -> None:
@@ -36,10 +37,18 @@ def require_packages(*names: str) -> None:
         )
 
 
-def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) -> Any:
+def open_graph(
+    folder: Path,
+    name: str,
+    threads: int,
+    *,
+    spinning: bool = True,
+    weights: Mapping[str, np.ndarray] | None = None,
+) -> Any:
     """An onnxruntime session of a graph, on so many threads of the CPU.
 
     Args:
+        weights: of a graph that is ready, by their names.
         spinning: whether threads that have nothing to do wait for work in a loop. Large products
             are done sooner so; between many small ones it takes the core from those that work.
 
@@ -56,6 +65,11 @@ def open_graph(folder: Path, name: str, threads: int, *, spinning: bool = True) 
     options.add_session_config_entry("session.force_spinning_stop", "1")
     if not spinning:
         options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    if weights is not None:
+        level = onnxruntime.GraphOptimizationLevel
+        options.graph_optimization_level = level.ORT_DISABLE_ALL  # the graph is optimised
+        values = [onnxruntime.OrtValue.ortvalue_from_numpy(each) for each in weights.values()]
+        options.add_external_initializers(list(weights), values)
     options.enable_mem_reuse = False  # what plans it is half of opening; buffers are freed anyhow
     try:
         return onnxruntime.InferenceSession(
@@ -74,44 +88,49 @@ def run(session: Any, **inputs: Tensor | np.ndarray) -> list[Tensor]:
     return [torch.from_numpy(array) for array in session.run(None, arrays)]
 
 
-def adapter_weights(folder: Path, opened: Sequence[float]) -> np.ndarray:
-    """What adapted.onnx hears [N]: the weights of the adapter that is opened, zeros for none.
-
-    Of each map that has adapters, by their names in model.safetensors, the first map [R, D], then
-    the second [D', R], row by row, filled up with zeros to the largest rank R.
+def denoiser_weights(
+    folder: Path, card: TextOnnxCard, adapter: int | None, one_step: bool
+) -> dict[str, np.ndarray]:
+    """What a ready graph of a denoiser reads, by name: as one of its adapters changes it (Hu et al.
+    2022, LoRA, equation 3), and as it goes from noise to motion at once (`OneStep`).
 
     Args:
         folder: of the export.
-        opened: [A] of zeros and at most one 1.
+        adapter: which is open; None: none.
     """
     from safetensors import safe_open
 
     with safe_open(folder / WEIGHTS_FILE, "np") as stored:
         names = set(stored.keys())
-        first = sorted(name for name in names if name.endswith(f"{ADAPTERS}0.0.weight"))
-        shapes = [stored.get_slice(name).get_shape()
-                  for at in range(len(opened)) for name in [_of_adapter(first[0], at)]]  # fmt: skip
-        rank, own = max(height for height, _ in shapes), [*opened].index(1) if any(opened) else None
-        parts = []
-        for down in first:
-            up = down.replace(f"{ADAPTERS}0.0", f"{ADAPTERS}0.1")
-            sizes = ((rank, stored.get_slice(down).get_shape()[1]),
-                     (stored.get_slice(up).get_shape()[0], rank))  # fmt: skip
-            for name, size in zip((down, up), sizes, strict=True):
-                whole = np.zeros(size, np.float32)
-                if own is not None:
-                    name = _of_adapter(name, own)
-                    part = stored.get_tensor(name).astype(np.float32)
-                    if name + INT8_SCALE in names:
-                        part = part * stored.get_tensor(name + INT8_SCALE)[:, None]
-                    whole[: len(part), : part.shape[1]] = part
-                parts.append(whole.ravel())
-    return np.concatenate(parts)
 
+        def floats(name: str) -> np.ndarray:
+            value = stored.get_tensor(name).astype(np.float32)
+            if name + INT8_SCALE in names:
+                scale = stored.get_tensor(name + INT8_SCALE)
+                value *= scale.reshape(-1, *[1] * (value.ndim - 1))
+            return np.asarray(value)
 
-def _of_adapter(name: str, at: int) -> str:
-    """The tensor of adapter 0 of another one."""
-    return name.replace(f"{ADAPTERS}0.", f"{ADAPTERS}{at}.")
+        shifts = dict[str, np.ndarray]()
+        if one_step:
+            rows, at = floats(f"{STEP}shifts"), 0
+            for name in card.shifted:
+                size = stored.get_slice(name).get_shape()[0]
+                shifts[name] = rows[at:].ravel()[:size]
+                at += -(-size // rows.shape[1])
+        found = dict[str, np.ndarray]()
+        for path in card.graphs[READY + DENOISER_GRAPH].weights:
+            name = path.removesuffix(TURNED)
+            value, key = floats(name), name.removeprefix("denoiser.").replace(".", "_")
+            down = f"{name.removesuffix('weight')}{ADAPTERS[1:]}{adapter}.0.weight"
+            if one_step and f"{STEP}down.{key}" in names:
+                value += floats(f"{STEP}up.{key}") @ floats(f"{STEP}down.{key}")
+            elif name in shifts:
+                value += shifts[name]
+            if down in names:
+                value += floats(down.replace(".0.weight", ".1.weight")) @ floats(down)
+            turned = value.T if path != name else value
+            found[path] = turned.copy(order="C")
+        return found
 
 
 class OnnxTextTower(nn.Module):
@@ -151,13 +170,17 @@ class OnnxDenoiser(nn.Module):
     ) -> None:
         super().__init__()
         self.config, self.num_tags = config, card.no_tag
-        self._before, self._has_one_step = "", ONE_STEP + DENOISER_GRAPH in card.graphs
+        self._one_step, self._has_one_step = False, bool(card.shifted)
         self.shows_known, self.provenance_embed = card.shown, None
         self._pooled = torch.tensor(card.null_pooled)
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
-        self._session = cache(lambda graph: open_graph(folder, graph, threads))  # as they are used
-        own = cache(lambda opened: adapter_weights(folder, opened))
-        self._adapters = lru_cache(1)(lambda opened: np.stack([*map(own, opened)]))
+
+        @lru_cache(SESSIONS)
+        def session(adapter: int | None, one_step: bool) -> Any:
+            weights = denoiser_weights(folder, card, adapter, one_step)
+            return open_graph(folder, READY + DENOISER_GRAPH, threads, weights=weights)
+
+        self._session = session  # as they are used
 
     def forward(
         self,
@@ -175,28 +198,32 @@ class OnnxDenoiser(nn.Module):
         heard = dict[str, Tensor | np.ndarray]()
         if self._token is not None:
             heard |= {"tokens": text.tokens, "token_mask": text.mask}
-        if text.opened is not None:
-            heard["adapter"] = self._adapters(tuple(map(tuple, text.opened.tolist())))
-        (prediction,) = run(
-            self._session(
-                self._before + (DENOISER_GRAPH if text.opened is None else ADAPTED_GRAPH)
-            ),
-            x=noisy,
-            t=timesteps,
-            pooled=text.pooled,
-            tag=tag,
-            mask=np.ones(noisy.shape[:2], dtype=bool) if mask is None else mask,
-            known=np.zeros(noisy.shape, dtype=bool) if known is None else known,
-            **heard,
-        )
-        return prediction
+        heard |= {
+            "x": noisy,
+            "t": timesteps,
+            "pooled": text.pooled,
+            "tag": tag,
+            "mask": np.ones(noisy.shape[:2], dtype=bool) if mask is None else mask,
+            "known": np.zeros(noisy.shape, dtype=bool) if known is None else known,
+        }
+        if text.opened is None:
+            return run(self._session(None, self._one_step), **heard)[0]
+        opened = np.asarray(text.opened)
+        adapters = np.where(opened.any(1), opened.argmax(1), -1)
+        prediction = np.empty(noisy.shape, np.float32)
+        for adapter in np.unique(adapters):
+            rows = adapters == adapter
+            own = {name: np.asarray(values)[rows] for name, values in heard.items()}
+            session = self._session(None if adapter < 0 else int(adapter), self._one_step)
+            prediction[rows] = run(session, **own)[0]
+        return torch.from_numpy(prediction)
 
     def in_one_step(self) -> "OnnxDenoiser | None":
         """See `MotionDenoiser.in_one_step`."""
         if not self._has_one_step:
             return None
         changed = copy.copy(self)
-        changed._before = ONE_STEP
+        changed._one_step = True
         return changed
 
     def text_keys_values(self, text: TextFeatures) -> list[Any]:

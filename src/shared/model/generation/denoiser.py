@@ -60,14 +60,13 @@ class OneStep(nn.Module):
     def __init__(self, denoiser: "MotionDenoiser", rank: int) -> None:
         super().__init__()
         self.down, self.up = nn.ParameterDict(), nn.ParameterDict()  # [r, D] and [D', r]
-        width, rows = denoiser.config.embed_dim, 0
+        width = denoiser.config.embed_dim
         for name, weight in denoiser.named_parameters():
             if _seen_by_frames(denoiser, name):
                 key, (out_dim, dim) = name.replace(".", "_"), weight.shape
                 self.down[key] = nn.Parameter(torch.randn(rank, dim) * dim**-0.5)
                 self.up[key] = nn.Parameter(torch.zeros(out_dim, rank))
-            elif _is_vector(name, weight):
-                rows += -(-len(weight) // width)
+        rows = sum(-(-len(weight) // width) for weight in vectors(denoiser).values())
         self.shifts = nn.Parameter(torch.zeros(rows, width))  # of the vectors, one after another
 
     def weights(self, denoiser: "MotionDenoiser") -> dict[str, Tensor]:
@@ -76,10 +75,10 @@ class OneStep(nn.Module):
         for name, weight in denoiser.named_parameters():
             if (key := name.replace(".", "_")) in self.down:
                 found[name] = weight + self.up[key] @ self.down[key]
-            elif _is_vector(name, weight):
-                rows = -(-len(weight) // width)
-                found[name] = weight + self.shifts[at : at + rows].flatten()[: len(weight)]
-                at += rows
+        for name, vector in vectors(denoiser).items():
+            rows = -(-len(vector) // width)
+            found[name] = vector + self.shifts[at : at + rows].flatten()[: len(vector)]
+            at += rows
         return found
 
 
@@ -92,9 +91,13 @@ def _seen_by_frames(denoiser: nn.Module, name: str) -> bool:
     return isinstance(part, AdaptedLinear) or whole in ("motion_proj", "known_proj", "output_proj")
 
 
-def _is_vector(name: str, weight: Tensor) -> bool:
-    """Whether a parameter is a vector that OneStep changes."""
-    return weight.ndim == 1 and not name.startswith(("null_", "one_step"))
+def vectors(denoiser: nn.Module) -> dict[str, Tensor]:
+    """The vectors that OneStep changes, by their names, in the order of its `shifts`."""
+    return {
+        name: weight
+        for name, weight in denoiser.named_parameters()
+        if weight.ndim == 1 and not name.startswith(("null_", "one_step"))
+    }
 
 
 class MotionDenoiser(nn.Module):

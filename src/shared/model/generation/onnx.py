@@ -5,19 +5,18 @@ network that hears them, opened [B, A] for one with adapters, closeness [B] of a
 denoiser.onnx: x [B, T, K, C]
 z-scores, t [B], the text, tag [B], mask [B, T] (true = a real frame), known [B, T, K, C] (true =
 the entry is given) -> prediction. adapted.onnx hears the weights of each sample's adapter as well
-(onnx_graphs.py); denoiser.onnx is the same network where no text opens one. one-step-denoiser.onnx
-and one-step-adapted.onnx are both for a single step without guidance, if that was learned.
+(docs/onnx.md); denoiser.onnx is the same network where no text opens one.
 
 Letters: B batch, L tokens, T frames, K rows, C channels, D embed dim.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import torch
 from torch import Tensor, nn
-from torch.func import functional_call
 
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
 from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
@@ -26,12 +25,12 @@ from ..clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..clip.out_of_domain import TABLE_FILE
 from ..clip.style_map import STYLE_FILE
 from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
-from ..layers.transformer import AdaptedLinear
+from ..layers.transformer import AdaptedLinear, MultiHeadAttention
 from ..onnx_card import TextOnnxCard, TokenizerInfo
 from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
-from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, ONE_STEP, TEXT_GRAPH
+from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 from .constraint import MIN_FRAMES
-from .denoiser import MotionDenoiser
+from .denoiser import MotionDenoiser, vectors
 from .motion_generator import TextToMotion, as_captured
 
 FILES = (
@@ -74,6 +73,42 @@ class SymbolicAdapted(AdaptedLinear):
         return y + x @ down.mT @ up.mT
 
 
+class SymbolicAttention(MultiHeadAttention):
+    """In fewer nodes than the exporter makes of PyTorch's kernel: a sixth of a pass."""
+
+    def forward(
+        self, x: Tensor, mask: Tensor | None = None, opened: Tensor | None = None
+    ) -> Tensor:
+        """See MultiHeadAttention; `mask` is there and has a frame of each sample."""
+        assert mask is not None and self.rotary is not None
+        heads = self.qkv(x, opened).unflatten(-1, (3 * self.num_heads, -1))  # [B, T, 3H, d]
+        positioned, value = heads.split([2 * self.num_heads, self.num_heads], dim=2)
+        cos, sin = self.rotary._tables(x.shape[1], x.device)
+        first, second = positioned.chunk(2, dim=-1)
+        crossed = torch.cat([second, first], -1) * torch.cat([-sin, sin], -1)
+        query, key = (positioned * torch.cat([cos, cos], -1) + crossed).chunk(2, dim=2)
+        scores = query.transpose(1, 2) @ key.permute(0, 2, 3, 1) * value.shape[-1] ** -0.5
+        scores = scores + torch.where(mask, 0.0, -1e4)[:, None, None]  # [B, H, T, T]
+        mixed = scores.softmax(dim=-1) @ value.transpose(1, 2)  # [B, H, T, d]
+        result: Tensor = self.out(mixed.transpose(1, 2).flatten(2), opened)
+        return result
+
+
+class SymbolicGelu(nn.GELU):
+    """In the order in which onnxruntime knows it as one operation."""
+
+    def forward(self, x: Tensor) -> Tensor:
+        """[...] -> the same."""
+        return x * (1 + torch.erf(x / math.sqrt(2))) * 0.5
+
+
+TWINS = {
+    AdaptedLinear: SymbolicAdapted,
+    MultiHeadAttention: SymbolicAttention,
+    nn.GELU: SymbolicGelu,
+}
+
+
 class TextGraph(nn.Module):
     """A text tower that gives what its denoiser hears."""
 
@@ -99,15 +134,11 @@ class DenoiserGraph(nn.Module):
     Args:
         denoiser: trained.
         more: names of its last inputs, of tokens, token_mask and adapter.
-        one_step: as it is for one step.
     """
 
-    def __init__(
-        self, denoiser: MotionDenoiser, more: Sequence[str], one_step: bool = False
-    ) -> None:
+    def __init__(self, denoiser: MotionDenoiser, more: Sequence[str]) -> None:
         super().__init__()
-        self.one_step = one_step
-        self.denoiser, self.more = symbolic(denoiser, {AdaptedLinear: SymbolicAdapted}), more
+        self.denoiser, self.more = symbolic(denoiser, TWINS), more
         self.numbers = 0  # N, of the weights of an adapter
         for _, part in sorted(self.denoiser.named_modules()):
             if isinstance(part, SymbolicAdapted) and part.adapters:
@@ -137,10 +168,7 @@ class DenoiserGraph(nn.Module):
             "known": known if self.denoiser.shows_known else None,
             "provenance": as_captured(self.denoiser, tag),
         }
-        weights = dict[str, Tensor]()
-        if self.one_step and self.denoiser.one_step is not None:
-            weights = self.denoiser.one_step.weights(self.denoiser)
-        result: Tensor = functional_call(self.denoiser, weights, (x, t, text, tag, mask), told)
+        result: Tensor = self.denoiser(x, t, text, tag, mask, **told)
         return result
 
 
@@ -177,10 +205,9 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     if config.generation.adapter_ranks:
         numbers = DenoiserGraph(denoiser, ()).numbers
         variants[ADAPTED_GRAPH] = more | {"adapter": (torch.zeros(2, numbers), batch)}
-    kinds = ("", ONE_STEP) if denoiser.one_step is not None else ("",)
     networks = {
-        before + graph: traced(
-            DenoiserGraph(denoiser, list(heard), before == ONE_STEP),
+        graph: traced(
+            DenoiserGraph(denoiser, list(heard)),
             {
                 "x": (torch.randn(shape), whole),
                 "t": (torch.tensor([1, 2]), batch),
@@ -192,10 +219,10 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
             },
             ("prediction",),
         )
-        for before in kinds
         for graph, heard in variants.items()
     }
     card, tokenizer = generator.card, generator.tokenizer
+    shifted = tuple(f"denoiser.{name}" for name in vectors(denoiser)) if denoiser.one_step else ()
     # Written only now: who stops the slow part leaves no folder behind.
     return write_export(
         source,
@@ -214,6 +241,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
         no_tag=denoiser.num_tags,
         languages=card.languages,
         shown=denoiser.shows_known,
+        shifted=shifted,
         max_seconds=card.max_seconds,
         min_frames=MIN_FRAMES,
         tokenizer=TokenizerInfo(

@@ -11,6 +11,7 @@ import torch
 from src.shared.io.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE, read_card, read_tensors, resolve_model
 from src.shared.model.clip.core import TextTower
+from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.generation.onnx import (
     ADAPTED_GRAPH,
@@ -18,8 +19,9 @@ from src.shared.model.generation.onnx import (
     TEXT_GRAPH,
     export_text,
 )
+from src.shared.model.layers.transformer import AdaptedLinear
 from src.shared.model.onnx_card import READY, TURNED, TextOnnxCard, read_onnx_card
-from src.shared.model.onnx_graphs import ONE_STEP, adapter_weights, open_graph
+from src.shared.model.onnx_graphs import OnnxDenoiser, open_graph
 
 onnx = pytest.importorskip("onnx")
 onnxruntime = pytest.importorskip("onnxruntime")
@@ -43,6 +45,15 @@ def with_pairs(generator: TextToMotion) -> TextToMotion:
     generator.text = tower.freeze()
     generator.network = generator.network.model_copy(update={"clip": clip})
     return generator
+
+
+def adapter_weights(denoiser: MotionDenoiser, opened: torch.Tensor) -> np.ndarray:
+    """What adapted.onnx hears for texts that open these [B, A], as docs/onnx.md says."""
+    maps = [m for _, m in sorted(denoiser.named_modules()) if isinstance(m, AdaptedLinear)]
+    tables = [part.table(layer) for part in maps if part.rank for layer in (0, 1)]
+    own, any_open = opened.argmax(-1), opened.any(-1)[:, None]
+    rows = torch.cat([table[own].flatten(1) for table in tables], 1)
+    return (rows * any_open).numpy()
 
 
 def opened_ready(folder: Path, graph: str, weights: tuple[str, ...]) -> Any:
@@ -95,8 +106,8 @@ def test_graphs_compute_what_the_networks_do(
     card = read_onnx_card(tmp_path / "onnx", TextOnnxCard)
     weights = [tmp_path / folder / WEIGHTS_FILE for folder in ("model", "onnx")]
     assert sha256_file(weights[0]) == sha256_file(weights[1]) == card.model
-    small = [graph.bytes for name, graph in card.graphs.items() if not name.startswith(ONE_STEP)]
-    assert sum(small) < weights[0].stat().st_size  # the others of a network so tiny are folded
+    small = [graph.bytes for graph in card.graphs.values()]
+    assert sum(small) < weights[0].stat().st_size
     again = TextToMotion.from_pretrained(tmp_path / "onnx", device="cpu")
     assert torch.equal(again.mean, generator.mean)
 
@@ -113,18 +124,19 @@ def test_graphs_compute_what_the_networks_do(
         graphs[ADAPTED_GRAPH] = generator.denoiser.with_adapters(text)
         read = onnx.load(tmp_path / "onnx" / ADAPTED_GRAPH, load_external_data=False).graph
         assert not [each.name for each in read.initializer if "adapters" in each.name]
-    plain = [*graphs]
-    if once := generator.denoiser.in_one_step():
-        graphs |= {ONE_STEP + graph: heard for graph, heard in graphs.items()}
-    assert card.graphs.keys() == {TEXT_GRAPH, *graphs, *(READY + graph for graph in plain)}
+    assert card.graphs.keys() == {TEXT_GRAPH, *graphs, *(READY + graph for graph in graphs)}
     opened = {
         graph: (
             open_graph(tmp_path / "onnx", graph, 1),
-            graph in plain
-            and opened_ready(tmp_path / "onnx", graph, card.graphs[READY + graph].weights),
+            opened_ready(tmp_path / "onnx", graph, card.graphs[READY + graph].weights),
         )
         for graph in graphs
     }
+    runs = OnnxDenoiser(tmp_path / "onnx", generator.network, card, 1)
+    networks: list[tuple[Any, Any]] = [(runs, generator.denoiser)]
+    assert bool(card.shifted) == (generator.denoiser.one_step is not None)
+    if once := generator.denoiser.in_one_step():
+        networks.append((runs.in_one_step(), once))
     for (graph, heard), frames in product(graphs.items(), (8, 61)):
         session, ready = opened[graph]
         x = torch.randn(3, frames, 23, 6)
@@ -136,31 +148,26 @@ def test_graphs_compute_what_the_networks_do(
             feed |= {"tokens": torch.as_tensor(outputs[1]), "token_mask": words.bool()}
         if heard.opened is not None:
             np.testing.assert_array_equal(outputs[1], heard.opened)
-            own = [adapter_weights(tmp_path / "onnx", row) for row in heard.opened.tolist()]
-            feed["adapter"] = torch.from_numpy(np.stack(own))
+            own = adapter_weights(generator.denoiser, heard.opened)
+            feed["adapter"] = torch.from_numpy(own)
         assert feed.keys() == card.graphs[graph].inputs.keys()
         arrays = {name: value.numpy() for name, value in feed.items()}
         (found,) = session.run(None, arrays)
-        if ready:
-            np.testing.assert_allclose(ready.run(None, arrays)[0], found, atol=1e-5)
-        wanted = (once if graph.startswith(ONE_STEP) else generator.denoiser)(
-            x,
-            t,
-            heard,
-            tag,
-            mask,
-            known=known if settings.get("constraints") else None,
-            provenance=torch.zeros(3, dtype=torch.long) if settings.get("provenance") else None,
-        )
-        assert wanted.abs().max() > 0.3
-        np.testing.assert_allclose(found[mask], wanted[mask], atol=1e-4)
+        np.testing.assert_allclose(ready.run(None, arrays)[0], found, atol=1e-5)
+        told = {
+            "known": known if settings.get("constraints") else None,
+            "provenance": torch.zeros(3).long() if settings.get("provenance") else None,
+        }
+        for at, (ours, network) in enumerate(networks):
+            wanted = network(x, t, heard, tag, mask, **told)
+            assert wanted.abs().max() > 0.3
+            for each in [ours(x, t, heard, tag, mask, **told).numpy(), *[found][at:]]:
+                np.testing.assert_allclose(each[mask], wanted[mask], atol=1e-4)
 
 
 def test_shipped_graphs_hold_no_weights() -> None:
     folder = resolve_model("starter")
-    names = [path.name for path in folder.glob("*.onnx") if not path.name.startswith(READY)]
-    assert {f"{ONE_STEP}{name}" for name in (DENOISER_GRAPH, ADAPTED_GRAPH)} < {*names}
-    for name in names:
+    for name in [each.name for each in folder.glob("*.onnx") if not each.name.startswith(READY)]:
         stored = onnx.load(folder / name, load_external_data=False).graph.initializer
         held = [each for each in stored if each.data_location != onnx.TensorProto.EXTERNAL]
         assert sum(len(each.raw_data) for each in held) < 4096
