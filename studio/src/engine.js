@@ -15,7 +15,7 @@ export class Engine {
     useSkeleton(settings.skeleton);
     const weights = new Weights(parts.weights);
     const tower = new TextTower(weights, new Tokenizer(parts.tokenizer, settings.maxTokens));
-    const denoiser = new Denoiser(parts, settings.weights);
+    const denoiser = new Denoiser(parts, settings.weights, settings.shifted);
     const model = {
       ...settings,
       mean: weights.floats("statistics.mean"),

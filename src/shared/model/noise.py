@@ -20,6 +20,7 @@ from ..tensors import Tensor, torch
 Array = NDArray[np.float64]
 
 COSINE_OFFSET = 0.008  # s of Nichol & Dhariwal 2021, eq. 17
+MOST_FEW = 2  # steps that begin with a learned one
 MAX_FINAL_SIGNAL = 0.02  # sqrt(alpha_bar) at the last step stays below this (SPEC ruling 15)
 
 
@@ -69,6 +70,16 @@ class NoiseSchedule:
             config.beta_schedule, config.timesteps, config.beta_start, config.beta_end
         )
         return cls(betas=betas, alphas_cumprod=np.cumprod(1.0 - betas, dtype=np.float64))
+
+
+def few_from_noise(process: DiffusionConfig, steps: int | None = None) -> bool:
+    """Whether so many steps, None: its own, are one or two and begin at noise alone, as a learned
+    first step does."""
+    number = steps or process.sampling_steps
+    if number > MOST_FEW:
+        return False
+    times = sampling_timesteps(process.timesteps, number, process.timestep_spacing)
+    return times[0] == process.timesteps - 1
 
 
 def sampling_timesteps(num_timesteps: int, num_steps: int, spacing: str) -> tuple[int, ...]:

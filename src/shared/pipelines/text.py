@@ -71,7 +71,7 @@ ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncou
 CLAP_PACE, TO_LAND = 2, 1.3  # times as fast as made people clap; seconds for a last step to land
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
-LEAST, UNEASY = 1.0, 0.5  # seconds in which an action is seen; how bad no rest is, by a miss
+LEAST, STOP, UNEASY = 1.0, 1.0, 0.5  # seconds: to see an action, to stop; no rest, by a miss
 REPEATED_OVERLAP = 10  # frames: a repetition begins as the one before it ended, at rest
 
 log = logging.getLogger(__name__)
@@ -193,8 +193,7 @@ class SentenceGenerator:
         return ["; ".join(each) or None for each in lines]
 
     def missed(self, prompt: str, motion: Motion) -> str | None:
-        """A line if a motion does not show the action of its prompt, although it was sampled again;
-        None where kinematics do not see it, of clauses, measures and a way that turns as well."""
+        """A line if a motion does not show its one plain clause, where kinematics see that."""
         (first, *others), scope = self.clauses(prompt), self.scope
         action = self._nearest(first.text)
         missed = scope and action in scope.checked and not self._does(first.text, motion)
@@ -263,8 +262,7 @@ class SentenceGenerator:
         return hands_meet(motion, 0, motion.num_frames) if actions == ["clap"] else motion
 
     def _wanted(self, text: str) -> Check | None:
-        """Whether a motion shows the action that is nearest to a text, on the side that it names;
-        None where kinematics cannot see that."""
+        """Whether a motion shows a text's nearest action, on its side; None: it cannot be seen."""
         action, scope, side = self._nearest(text), self.scope, side_of(text)
         if scope is None or action is None:
             return None
@@ -442,23 +440,25 @@ class SentenceGenerator:
     ) -> Motion:
         """What clauses became, one after the other, and what single limbs do meanwhile."""
         starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
-        given, fps = Constraint.free(starts[-1]), self.card.fps
+        given, fps, led = Constraint.free(starts[-1]), self.card.fps, False
         for part, start, (passage, constraint) in zip(parts, starts, stretches, strict=False):
+            stop, stands = start + passage.frames, start and self._nearest(part.text) == "stand"
+            if constraint is None and stands:
+                constraint = on_the_spot(Constraint.free(passage.frames))
             if constraint is not None:
-                stop = start + passage.frames
                 given.values[start:stop] = constraint.values
                 given.known[start:stop] = constraint.known
-                if start and part.metres == 0:  # who went comes to a stop first
-                    stop = start + round(TURN_REST * fps)
-                    given.known[start:stop, ROOT_ROW, [FORWARD, LATERAL]] = False
-        led, low = False, [self._nearest(part.text) in LOW for part in parts]
+                led = True
+            first = STOP if stands else TURN_REST * (start > 0 and part.metres == 0)
+            until = start + round(first * fps)  # who went comes to a stop first
+            given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
+        low = [self._nearest(part.text) in LOW for part in parts]
         for at, join in enumerate(starts[1:-1]):  # who sits or kneels down or gets up
             if low[at] or low[at + 1]:
                 begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
                 led |= lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
-        led |= any(constraint is not None for _, constraint in stretches)
         pieces = stream_features(
             self.generator,
             [passage for passage, _ in stretches],

@@ -27,7 +27,7 @@ from ..model.clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..model.clip.out_of_domain import TABLE_FILE, OutOfDomainDetector
 from ..model.clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..model.generation.motion_generator import KIND
-from ..model.noise import NoiseSchedule, sampling_timesteps
+from ..model.noise import NoiseSchedule, few_from_noise, sampling_timesteps
 from ..model.onnx_card import READY, TextOnnxCard, read_onnx_card
 from ..model.onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, require_packages
 from ..motion.postprocess.whole import smoothing_weights
@@ -54,7 +54,7 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     folder = resolve_model(model)
     card = read_card(folder)
     _check(card, folder)
-    graphs = graphs_of(folder)
+    graphs, shifted = graphs_of(folder, card)
     parts = {
         "wasm": shell.joinpath(WASM).read_bytes(),
         **{kind: graph for kind, (graph, _) in graphs.items()},
@@ -71,7 +71,7 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     filled = {
         "@SETTINGS@": script_safe_json(
             settings(folder, card)
-            | {"weights": {kind: names for kind, (_, names) in graphs.items()}}
+            | {"weights": {kind: names for kind, (_, names) in graphs.items()}, "shifted": shifted}
         ),
         "@PARTS@": blobs,
         "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
@@ -115,23 +115,28 @@ def _check(card: ModelCard, folder: Path) -> None:
         )
 
 
-def graphs_of(folder: Path) -> dict[str, tuple[bytes, tuple[str, ...]]]:
+def graphs_of(
+    folder: Path, card: ModelCard
+) -> tuple[dict[str, tuple[bytes, tuple[str, ...]]], tuple[str, ...]]:
     """The denoiser's graphs, ready to open, "graph" and, of a model with adapters, "adapted", each
-    with the names of its weights: the folder's own, else exported here."""
+    with the names of its weights: the folder's own, else exported here. And the names of the
+    vectors that change for its own first step, if those few steps were learned."""
     kinds = {"graph": READY + DENOISER_GRAPH, "adapted": READY + ADAPTED_GRAPH}
     if (folder / kinds["graph"]).is_file():
-        card = read_onnx_card(folder, TextOnnxCard)
-        return {
-            kind: ((folder / name).read_bytes(), card.graphs[name].weights)
+        own = read_onnx_card(folder, TextOnnxCard)
+        found = {
+            kind: ((folder / name).read_bytes(), own.graphs[name].weights)
             for kind, name in kinds.items()
-            if name in card.graphs
+            if name in own.graphs
         }
+        few = few_from_noise(card.network.generation.diffusion())
+        return found, own.shifted if few else ()
     from ..model.generation.onnx import export_text
 
     require_packages("onnx", "onnxscript", "onnxruntime")
     with TemporaryDirectory() as scratch:
         export_text(folder, scratch)
-        return graphs_of(Path(scratch))
+        return graphs_of(Path(scratch), card)
 
 
 def settings(folder: Path, card: ModelCard) -> dict[str, Any]:

@@ -9,27 +9,29 @@ export class Denoiser {
    * @param {object} parts bytes: wasm of onnxruntime; graph, and adapted for a model with adapters,
    *     without weights; weights, a safetensors file
    * @param {object} names of the weights that each graph reads
+   * @param {string[]} shifted the vectors that a learned step changes; none where none was learned
    */
-  constructor(parts, names) {
+  constructor(parts, names, shifted = []) {
     ort.env.wasm.numThreads = 1;
     ort.env.wasm.wasmBinary = parts.wasm.buffer;
     ort.env.logLevel = "error";
-    Object.assign(this, { parts, names, weights: new Weights(parts.weights) });
+    Object.assign(this, { parts, names, shifted, weights: new Weights(parts.weights) });
     this.sessions = {};
     this.adapters = {}; // of so many samples each, as they are used
     this.helper = null; // predicts as this one does, elsewhere and at the same time
   }
 
-  /** Of a graph: opened when it is first needed, and again where that failed. */
-  session(graph) {
-    this.sessions[graph] ??= ort.InferenceSession.create(this.parts[graph], {
-      externalData: this.names[graph].map((path) => ({ path, data: new Uint8Array(this.weights.ready(path).buffer) })),
+  /** Of a graph, as it is for the first of few steps where that is `first`: opened when it is first needed, and again where that failed. */
+  session(graph, first = false) {
+    const key = first ? `${graph} first` : graph;
+    this.sessions[key] ??= ort.InferenceSession.create(this.parts[graph], {
+      externalData: this.names[graph].map((path) => ({ path, data: new Uint8Array(this.weights.ready(path, first ? this.shifted : null).buffer) })),
       graphOptimizationLevel: "disabled", // the graphs are optimised
     }).catch((error) => {
-      delete this.sessions[graph];
+      delete this.sessions[key];
       throw error;
     });
-    return this.sessions[graph];
+    return this.sessions[key];
   }
 
   /** What the graph hears of an adapter (src/shared/model/generation/onnx_networks.py) for so many samples. */
@@ -50,14 +52,15 @@ export class Denoiser {
    * @param {number} tag
    * @param {Uint8Array} shown entries [T,R,C] that are clean
    * @param {number} opened the adapter of the whole batch, from 1 on; 0 for none
+   * @param {boolean} first of few steps, and learned for that
    * @returns {Promise<Float32Array[]>}
    */
-  async predict(batch, step, texts, tag, shown, opened = 0) {
+  async predict(batch, step, texts, tag, shown, opened = 0, first = false) {
     if (this.helper && batch.length > 1) {
       const half = batch.length >> 1;
-      const rest = [batch.slice(half), step, texts.slice(half), tag, shown, opened];
+      const rest = [batch.slice(half), step, texts.slice(half), tag, shown, opened, first];
       const there = this.helper(...rest).catch(() => null); // it may lack the memory
-      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown, opened);
+      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown, opened, first);
       let theirs = await there;
       if (theirs === null) {
         this.helper = null;
@@ -68,7 +71,7 @@ export class Denoiser {
     const number = batch.length, size = batch[0].length, frames = size / 138;
     const shape = [number, frames, 23, 6];
     const heard = opened && { adapter: this.adapter(opened, number) };
-    const { prediction } = await (await this.session(opened ? "adapted" : "graph")).run({
+    const { prediction } = await (await this.session(opened ? "adapted" : "graph", first)).run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
       pooled: new ort.Tensor("float32", all(texts), [number, texts[0].length]),

@@ -13,7 +13,7 @@ import { wordsOf } from "./scope.js";
 import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
 const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
@@ -157,17 +157,21 @@ export class Director {
 
   /** What clauses became, one after the other. */
   async performed(parts, stretches, text, seed, options) {
-    const passages = stretches.map(({ passage }) => passage), led = stretches.some(({ given }) => given);
+    const passages = stretches.map(({ passage }) => passage);
     const given = freeConstraint(passages.reduce((sum, { frames }) => sum + frames, 0)), starts = [];
     let at = 0;
+    let led = false;
     for (const stretch of stretches) {
+      const { metres, text: said } = parts[starts.length], stands = at > 0 && !stretch.given && this.nearest(said) === "stand";
+      const free = stands ? STOP : at > 0 && metres === 0 ? TURN_REST : 0; // who went comes to a stop first
       starts.push(at);
       if (stretch.given) {
         given.values.set(stretch.given.values, at * WIDTH);
         given.known.set(stretch.given.known, at * WIDTH);
-        if (at && parts[starts.length - 1].metres === 0) // who went comes to a stop first
-          for (let t = at; t < at + round(TURN_REST * FPS); t++) given.known[t * WIDTH + ROOT + FORWARD] = given.known[t * WIDTH + ROOT + LATERAL] = 0;
       }
+      for (let t = at; t < at + stretch.passage.frames; t++)
+        if (stands || t < at + round(free * FPS)) given.known[t * WIDTH + ROOT + FORWARD] = given.known[t * WIDTH + ROOT + LATERAL] = Number(t >= at + round(free * FPS));
+      led ||= stands || Boolean(stretch.given);
       at += stretch.passage.frames;
     }
     const down = await this.ledDown(given, parts, starts, seed);

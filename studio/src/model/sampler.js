@@ -9,7 +9,7 @@ export class Sampler {
    * @param {Denoiser} denoiser
    * @param {TextTower} tower
    * @param {object} settings of the model: mean, std [R*C], null_text, tags, schedule [[t, alpha bar]],
-   *     sampler, guidance, clip, prediction, adapters {places [P*D], adapterOf [P]} or null
+   *     sampler, guidance, clip, prediction, shifted [names] of one whose own few steps were learned, adapters {places [P*D], adapterOf [P]} or null
    */
   constructor(denoiser, tower, settings) {
     Object.assign(this, { denoiser, tower, settings });
@@ -21,10 +21,10 @@ export class Sampler {
    * @param {number} frames
    * @param {bigint|number} seed
    * @param {{known: Uint8Array, shown: Uint8Array, values: Float32Array}|null} given
-   * @param {number} guidance
+   * @param {number} guidance; learned steps want none
    */
   async sample(prompt, frames, seed, given = null, guidance = this.settings.guidance) {
-    const { mean, std, schedule, nullText, tags } = this.settings;
+    const { mean, std, schedule, nullText, tags, shifted } = this.settings, learned = shifted.length > 0;
     const size = frames * WIDTH, start = noise(seed, prompt, size), nothing = new Uint8Array(size);
     const shown = given ? given.shown.map((is, i) => is && given.known[i]) : nothing;
     const values = new Float32Array(size);
@@ -39,7 +39,7 @@ export class Sampler {
         input = x.slice();
         for (let j = 0; j < size; j++) if (given.known[j]) input[j] = shown[j] ? values[j] : a * values[j] + s * start[j];
       }
-      const output = await this.guided(input, step, text, nullText, tags, shown, guidance, opened);
+      const output = await this.guided(input, step, text, nullText, tags, shown, learned ? Math.min(guidance, 1) : guidance, opened, learned && i === 0);
       const clean = this.cleaned(x, output, a, s, given?.known, values), here = { clean, lambda: Math.log(a / s) };
       x = follow(x, this.settings.sampler === "ddim" ? clean : extrapolated(here, before, next), a, s, next);
       before = here;
@@ -63,9 +63,9 @@ export class Sampler {
     return Number(adapterOf[nearest]);
   }
 
-  async guided(x, step, text, nullText, tags, shown, guidance, opened) {
+  async guided(x, step, text, nullText, tags, shown, guidance, opened, first) {
     if (guidance === 1 || guidance === 0)
-      return (await this.denoiser.predict([x], step, [guidance ? text : nullText], tags, shown, opened))[0];
+      return (await this.denoiser.predict([x], step, [guidance ? text : nullText], tags, shown, opened, first))[0];
     const [own, none] = await this.denoiser.predict([x, x], step, [text, nullText], tags, shown, opened);
     return own.map((value, i) => none[i] + guidance * (value - none[i]));
   }

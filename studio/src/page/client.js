@@ -32,9 +32,10 @@ export class Client {
       this.send("prepare", { settings, texts }).catch(() => null); // while the parts are unpacked
       parts = await Promise.race([this.parts, failed]);
       const opened = Promise.race([this.send("open", { settings, parts }), failed]);
-      const helped = navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
+      const guided = !settings.shifted.length; // else no pass has two halves
+      const helped = guided && navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
       await opened;
-      helped?.then((port) => port && this.worker === worker && this.send("helper", { port }, [port]))
+      if (helped) helped.then((port) => port && this.worker === worker && this.send("helper", { port }, [port]))
         .catch(() => null); // it was stopped; without help one worker does all
     } catch {
       if (worker && this.worker !== worker) return; // stopped while it opened: the next one opens

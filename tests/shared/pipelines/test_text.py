@@ -439,7 +439,7 @@ def test_what_kinematics_miss_is_sampled_again(
 
     monkeypatch.setattr(starter, "generate", listening)
 
-    def made(check: Check, steps: int | None = None) -> list[np.ndarray]:
+    def made(check: Check, steps: int = 6) -> list[np.ndarray]:
         monkeypatch.setitem(ACTIONS, "jump", check)
         scales.clear()
         prompts = ["a person jumps", "a person walks forward"]
@@ -460,7 +460,7 @@ def test_what_kinematics_miss_is_sampled_again(
     np.testing.assert_array_equal(never[0], first[0])  # where none will do the first one stays
     assert not np.array_equal(other[0], first[0])
     np.testing.assert_array_equal(other[1], first[1])
-    made(lambda m: False, steps=1)
+    made(lambda m: False, steps=2)
     assert scales == [None] * TRIES  # guidance is part of a learned step
 
 

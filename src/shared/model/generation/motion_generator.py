@@ -34,7 +34,7 @@ from ..clip.out_of_domain import OutOfDomainDetector, ScopeResult
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import TOKENIZER_FOLDER, PromptTokenizer
 from ..diffusion import GaussianDiffusion, guided
-from ..noise import sampling_timesteps
+from ..noise import few_from_noise
 from .constraint import Constraint, KnownBatch, SampleRequest, batches, make_requests
 
 if TYPE_CHECKING:
@@ -146,7 +146,6 @@ def _check_lengths(constraints: Sequence[Constraint | None], frames: Sequence[in
 KIND = "motion-generator"
 MAX_BATCH = 64  # motions sampled at once
 ON_CPU = 8  # of them on a CPU, whose caches hold no more
-MOST_FEW = 2  # steps that begin with a learned one
 ENCODED = 8  # lists of prompts whose encoding is remembered
 Progress = Callable[[int, int], None]  # motions done, motions in all
 
@@ -217,12 +216,7 @@ class TextToMotion:
     def learned_step(self, steps: int | None = None) -> "MotionDenoiser | None":
         """What makes the first of so many steps, None of the model's own, instead of the denoiser,
         if that was learned and there are one or two, from noise alone; neither wants guidance."""
-        process = self.diffusion.config
-        number = steps or process.sampling_steps
-        if self._one_step is None or number > MOST_FEW:
-            return None
-        times = sampling_timesteps(process.timesteps, number, process.timestep_spacing)
-        return self._one_step if times[0] == process.timesteps - 1 else None
+        return self._one_step if few_from_noise(self.diffusion.config, steps) else None
 
     @property
     def post_processor(self) -> MotionPostProcessor:

@@ -242,7 +242,8 @@ def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
     A clap is where the gap of the wrists has fallen by SWING or more to less than NEAR, and rises
     by as much again. Between the widest gaps before and after it is stretched in proportion, so
     that its least is TOUCH: both hands move by half of what is lacking, along the line between
-    them. Hands keep their world rotation; claps that are nearer stay as they are.
+    them. Hands keep their world rotation; claps that are nearer stay as they are. Runs on the
+    CPU in float64.
     """
     quaternions = torch.as_tensor(motion.quaternions[start:stop], dtype=torch.float64)
     root = torch.as_tensor(motion.root_position[start:stop], dtype=torch.float64)
