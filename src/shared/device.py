@@ -6,6 +6,7 @@ Every choice comes with its reason, which the caller prints.
 import os
 import shutil
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -153,6 +154,9 @@ def _num_threads() -> int:
     return _chosen_threads or os.cpu_count() or 1
 
 
+_within = threading.local()  # of a thread: `counted` inside idle_threads
+
+
 @contextmanager
 def idle_threads(most: int | None = None) -> Iterator[None]:
     """Inside, torch takes no more CPU threads than cores are idle, unless someone chose a number,
@@ -163,8 +167,9 @@ def idle_threads(most: int | None = None) -> Iterator[None]:
     """
     from .tensors import torch, torch_is_here
 
-    before = _num_threads()
-    if torch_is_here and _chosen_threads is None:
+    before, counted = _num_threads(), getattr(_within, "counted", False)
+    _within.counted = True
+    if torch_is_here and _chosen_threads is None and not counted:  # once, by the outermost
         idle = max(idle_cores() for _ in range(READINGS))
         torch.set_num_threads(max(1, min(before, idle)))
     if torch_is_here and most is not None:
@@ -172,6 +177,7 @@ def idle_threads(most: int | None = None) -> Iterator[None]:
     try:
         yield
     finally:
+        _within.counted = counted
         if torch_is_here:
             torch.set_num_threads(before)
 

@@ -89,14 +89,14 @@ def run(session: Any, **inputs: Tensor | np.ndarray) -> list[Tensor]:
 
 
 def denoiser_weights(
-    folder: Path, card: TextOnnxCard, adapter: int | None, one_step: bool
+    folder: Path, card: TextOnnxCard, adapter: int, one_step: bool
 ) -> dict[str, np.ndarray]:
     """What a ready graph of a denoiser reads, by name: as one of its adapters changes it (Hu et al.
     2022, LoRA, equation 3), and as it goes from noise to motion at once (`OneStep`).
 
     Args:
         folder: of the export.
-        adapter: which is open; None: none.
+        adapter: which is open; -1: none.
     """
     from safetensors import safe_open
 
@@ -176,7 +176,7 @@ class OnnxDenoiser(nn.Module):
         self._token = None if card.null_token is None else torch.tensor(card.null_token)
 
         @lru_cache(SESSIONS)
-        def session(adapter: int | None, one_step: bool) -> Any:
+        def session(adapter: int, one_step: bool) -> Any:
             weights = denoiser_weights(folder, card, adapter, one_step)
             return open_graph(folder, READY + DENOISER_GRAPH, threads, weights=weights)
 
@@ -207,15 +207,17 @@ class OnnxDenoiser(nn.Module):
             "known": np.zeros(noisy.shape, dtype=bool) if known is None else known,
         }
         if text.opened is None:
-            return run(self._session(None, self._one_step), **heard)[0]
+            return run(self._session(-1, self._one_step), **heard)[0]
         opened = np.asarray(text.opened)
         adapters = np.where(opened.any(1), opened.argmax(1), -1)
+        first, *others = np.unique(adapters).tolist()
+        if not others:
+            return run(self._session(first, self._one_step), **heard)[0]
         prediction = np.empty(noisy.shape, np.float32)
-        for adapter in np.unique(adapters):
+        for adapter in (first, *others):
             rows = adapters == adapter
             own = {name: np.asarray(values)[rows] for name, values in heard.items()}
-            session = self._session(None if adapter < 0 else int(adapter), self._one_step)
-            prediction[rows] = run(session, **own)[0]
+            prediction[rows] = run(self._session(adapter, self._one_step), **own)[0]
         return torch.from_numpy(prediction)
 
     def in_one_step(self) -> "OnnxDenoiser | None":
