@@ -183,6 +183,7 @@ def studio(
         Path, typer.Option(help="The page: an .html file, or a folder for its index.html.")
     ] = Path("outputs/studio.html"),
     model: Annotated[str, typer.Option(help=options.NAMED)] = environment.TEXT_MODEL,
+    steps: options.Steps = None,
     no_open: Annotated[bool, typer.Option("--no-open", help="Only write it.")] = False,
     json: options.Json = False,
 ) -> None:
@@ -192,11 +193,12 @@ def studio(
     Examples:
       motion-tools studio
       motion-tools studio --out public/ --no-open
+      motion-tools studio --steps 2
     """
     from ..shared.studio.page import page_file, write_studio
 
     options.check_file("--out", page_file(out))
-    path = write_studio(out, model)
+    path = write_studio(out, model, steps)
     if json:
         print_json({"file": str(path), "bytes": path.stat().st_size})
     else:

@@ -151,7 +151,6 @@ class GenerationConfig(Config):
     beta_schedule: Literal["linear", "cosine", "sqrt"] = "cosine"
     sampler: Literal["ddpm", "ddim", "dpm-solver++"] = "ddim"
     sampling_steps: int = Field(20, ge=1)
-    few_steps: int = Field(0, ge=0, le=2)  # instead, where one step was learned; 0 = none
     guidance_scale: float = Field(2.5, ge=0)
     timestep_spacing: Literal["halved", "leading", "linspace", "trailing"] = "trailing"
     clip_sigma: float | None = Field(6.0, gt=0)
@@ -159,13 +158,12 @@ class GenerationConfig(Config):
 
     def diffusion(self) -> DiffusionConfig:
         """The diffusion core's own configuration; raises ValueError when steps do not fit."""
-        steps = self.few_steps if self.one_step_rank and self.few_steps else self.sampling_steps
         return DiffusionConfig(
             timesteps=self.diffusion_steps,
             beta_schedule=self.beta_schedule,
             prediction_type=self.prediction_type,
             sampler=self.sampler,
-            sampling_steps=min(steps, self.diffusion_steps),
+            sampling_steps=min(self.sampling_steps, self.diffusion_steps),
             timestep_spacing=self.timestep_spacing,
             clip_sigma=self.clip_sigma,
         )

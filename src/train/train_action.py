@@ -278,8 +278,7 @@ class ActionTask(Task):
 
     def _adapted_network(self, network: NetworkConfig) -> NetworkConfig:
         ranks = (*network.generation.adapter_ranks, self.config.rank)
-        own = {"clip_sigma": self._clip_sigma(network), "few_steps": 0}  # learned without it
-        update = {"adapter_ranks": ranks, **own}
+        update = {"adapter_ranks": ranks, "clip_sigma": self._clip_sigma(network)}
         generation = network.generation.model_copy(update=update)
         return network.model_copy(update={"generation": generation, "clip": self.tower.config})
 

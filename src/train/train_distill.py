@@ -98,9 +98,7 @@ class DistillTask(Task):
     def __init__(self, config: TrainDistillConfig, network: NetworkConfig) -> None:
         self.config = config
         self.compute = choose_compute(config.device, config.precision)
-        self.teacher = _in_all_its_steps(
-            TextToMotion.from_pretrained(config.init, device=self.compute.device)
-        )
+        self.teacher = TextToMotion.from_pretrained(config.init, device=self.compute.device)
         own: dict[str, Any] = {"one_step_rank": config.rank or 0}
         if config.rank is not None:  # beside the teacher, which samples as it did
             before = self.teacher.network.generation
@@ -369,13 +367,6 @@ class LearnedStep(GuidedDenoiser):
         assert step is not None, "the network has no one-step-rank"
         output: Tensor = functional_call(self.denoiser, step.weights(self.denoiser), heard, told)
         return output
-
-
-def _in_all_its_steps(teacher: TextToMotion) -> TextToMotion:
-    """The same, not in the few that it may have learned before."""
-    generation = teacher.network.generation.model_copy(update={"few_steps": 0})
-    teacher.denoiser.config = teacher.network.model_copy(update={"generation": generation})
-    return teacher.with_denoiser(teacher.denoiser)
 
 
 def _check_teacher(init: str, teacher: TextToMotion) -> None:

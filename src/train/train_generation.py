@@ -439,7 +439,7 @@ class GenerationTask(Task):
 def _trained_shape(network: NetworkConfig) -> dict[str, Any]:
     """What weights are bound to: the network without its towers and how it is sampled."""
     free = {"sampler", "sampling_steps", "timestep_spacing", "guidance_scale", "post_processing",
-            "one_step_rank", "few_steps"}  # fmt: skip
+            "one_step_rank"}  # fmt: skip
     learned_later = {"constraints", "provenance"}
     return network.model_dump(exclude={"clip": True, "generation": free | learned_later})
 

@@ -89,7 +89,7 @@ FLAGS = {
         " --prompt --real-time --root --sampler --seconds --seed --steps --threads --vmc"
         " --websocket --window"
     ),
-    "studio": "--json --model --no-open --out",
+    "studio": "--json --model --no-open --out --steps",
     "memory build": (
         "--bars --figures --json --out --scheduler --space --split --takes --threads --workers DATA"
     ),

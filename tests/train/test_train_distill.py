@@ -16,7 +16,6 @@ from tiny_stage import (
 from src.shared.config_loader import load_train
 from src.shared.config_schema import TrainDistillConfig
 from src.shared.errors import UsageError, UserError
-from src.shared.io.files import parse_json, write_json
 from src.shared.model.diffusion import guided, make_sampler
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
@@ -119,10 +118,6 @@ def test_a_step_is_learned_beside_the_weights(
     ]
     assert torch.equal(*guided_once)  # who names a scale asks the network itself
 
-    card = tmp_path / "taught" / "config.json"  # its own steps may be the few that it learned
-    generation = parse_json(card.read_text("utf-8"))
-    generation["network"]["generation"] |= {"few-steps": 2}
-    write_json(card, generation)
     on = distill(prepared, tmp_path / "taught", tmp_path / "on", "rank=6", "steps=1",
                  "learning-rate=1e-9")  # fmt: skip
     assert missed(on) < 0.8 * seen

@@ -14,7 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from ..config_schema import PAIRS
+from ..config_schema import PAIRS, DiffusionConfig
 from ..data.retarget.mapping import load_mappings
 from ..environment import TEXT_MODEL
 from ..errors import UserError
@@ -40,21 +40,27 @@ LICENCES = "licences.txt.gz"
 SAMPLERS = ("ddim", "dpm-solver++")  # that the page's scripts know
 
 
-def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
+def write_studio(out: Path, model: str = TEXT_MODEL, steps: int | None = None) -> Path:
     """Write the page; returns its path.
 
     Args:
         out: an HTML file, or a folder that then holds index.html.
         model: a name that `models` lists, or a folder of training.
+        steps: of sampling; None = the model's own.
 
     Raises:
         UserError: no such model, or one that the studio cannot run; the file cannot be written.
+        UsageError: more steps than the model was trained in, or none.
     """
     shell = files(__package__).joinpath("shell")
     folder = resolve_model(model)
     card = read_card(folder)
     _check(card, folder)
-    graphs, shifted = graphs_of(folder, card)
+    process = card.network.generation.diffusion()
+    if steps is not None:
+        process = process.model_copy(update={"sampling_steps": steps})
+    own = settings(folder, card, process)
+    graphs, shifted = graphs_of(folder)
     parts = {
         "wasm": shell.joinpath(WASM).read_bytes(),
         **{kind: graph for kind, (graph, _) in graphs.items()},
@@ -70,8 +76,11 @@ def write_studio(out: Path, model: str = TEXT_MODEL) -> Path:
     )
     filled = {
         "@SETTINGS@": script_safe_json(
-            settings(folder, card)
-            | {"weights": {kind: names for kind, (_, names) in graphs.items()}, "shifted": shifted}
+            own
+            | {
+                "weights": {kind: names for kind, (_, names) in graphs.items()},
+                "shifted": shifted if few_from_noise(process) else (),
+            }
         ),
         "@PARTS@": blobs,
         "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
@@ -115,12 +124,10 @@ def _check(card: ModelCard, folder: Path) -> None:
         )
 
 
-def graphs_of(
-    folder: Path, card: ModelCard
-) -> tuple[dict[str, tuple[bytes, tuple[str, ...]]], tuple[str, ...]]:
+def graphs_of(folder: Path) -> tuple[dict[str, tuple[bytes, tuple[str, ...]]], tuple[str, ...]]:
     """The denoiser's graphs, ready to open, "graph" and, of a model with adapters, "adapted", each
     with the names of its weights: the folder's own, else exported here. And the names of the
-    vectors that change for its own first step, if those few steps were learned."""
+    vectors that change for the first of few steps, if that was learned."""
     kinds = {"graph": READY + DENOISER_GRAPH, "adapted": READY + ADAPTED_GRAPH}
     if (folder / kinds["graph"]).is_file():
         own = read_onnx_card(folder, TextOnnxCard)
@@ -129,24 +136,20 @@ def graphs_of(
             for kind, name in kinds.items()
             if name in own.graphs
         }
-        few = few_from_noise(card.network.generation.diffusion())
-        return found, own.shifted if few else ()
+        return found, own.shifted
     from ..model.generation.onnx import export_text
 
     require_packages("onnx", "onnxscript", "onnxruntime")
     with TemporaryDirectory() as scratch:
         export_text(folder, scratch)
-        return graphs_of(Path(scratch), card)
+        return graphs_of(Path(scratch))
 
 
-def settings(folder: Path, card: ModelCard) -> dict[str, Any]:
+def settings(folder: Path, card: ModelCard, process: DiffusionConfig) -> dict[str, Any]:
     """All that the page needs to know besides arrays."""
     generation = card.network.generation
-    diffusion = generation.diffusion()
-    alpha_bar = NoiseSchedule.from_config(diffusion).alphas_cumprod
-    steps = sampling_timesteps(
-        diffusion.timesteps, diffusion.sampling_steps, diffusion.timestep_spacing
-    )
+    alpha_bar = NoiseSchedule.from_config(process).alphas_cumprod
+    steps = sampling_timesteps(process.timesteps, process.sampling_steps, process.timestep_spacing)
     post = generation.post_processing
     body = body_data()
     tokenizer = load_json(folder / TOKENIZER_FOLDER / META_FILE)

@@ -150,6 +150,28 @@ def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
 
 
 @BROWSER
+def test_the_two_learned_steps_are_those_of_the_command_line(
+    generator: MotionGenerator, tmp_path: Path
+) -> None:
+    page = write_studio(tmp_path, steps=2)
+    with Browser(page.as_uri(), tmp_path / "profile", ready="typeof studio === 'object'") as opened:
+        opened.wait("studio.timings?.first !== undefined", 180)
+        for prompt in ("a man bows", "claps twice, then walks forward and stops"):
+            made(opened, f"{{ blocks: [{{ text: '{prompt}', seconds: 3 }}], seed: 4 }}")
+            sampling = Sampling(seed=4, steps=2)
+            [wanted] = generator.generate([prompt], seconds=3.0, sampling=sampling)
+            there = read_motion(write_bvh(wanted, tmp_path / "a.bvh"))
+            assert_same(exported(opened, tmp_path), there)
+
+
+@pytest.mark.parametrize("steps", [0, 1001])
+def test_steps_that_no_model_takes_are_refused(steps: int, tmp_path: Path) -> None:
+    with pytest.raises(UserError, match=f"steps {steps} is not within 1 ... 1000"):
+        write_studio(tmp_path, steps=steps)
+    assert not list(tmp_path.iterdir())
+
+
+@BROWSER
 @pytest.mark.parametrize("language", PROMPTS)
 def test_a_sentence_gives_what_the_command_line_gives(
     language: str, browser: Browser, generator: MotionGenerator, tmp_path: Path

@@ -309,7 +309,7 @@ def evaluate_text(
     network, card = generator.network.generation, generator.card
     own = {
         "sampler": network.sampler,
-        "steps": network.diffusion().sampling_steps,
+        "steps": network.sampling_steps,
         "guidance_scale": network.guidance_scale,
         "foot_lock": network.post_processing.foot_lock,
     }

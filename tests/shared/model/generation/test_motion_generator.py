@@ -296,14 +296,3 @@ def test_one_and_two_steps_begin_with_the_learned_one(make_generator):
         update={"timestep_spacing": "leading"}
     )
     assert {name for name, *_ in asked(steps=2)} == {"own"}  # which does not begin at noise
-
-
-def test_the_few_steps_that_were_learned_are_the_models_own(make_generator):
-    few = make_generator(one_step_rank=2, few_steps=2, sampling_steps=6)
-    given = {"seconds": 1.0, "seed": 3}
-    own, two, six = (
-        few.sample_features(PROMPTS[:1], steps=steps, **given)[0] for steps in (None, 2, 6)
-    )
-    assert torch.equal(own, two) and not torch.allclose(own, six)
-    plain = make_generator(few_steps=2, sampling_steps=6)  # learned none
-    assert plain.diffusion.config.sampling_steps == 6
