@@ -154,30 +154,30 @@ def _num_threads() -> int:
     return _chosen_threads or os.cpu_count() or 1
 
 
-_within = threading.local()  # of a thread: `counted` inside idle_threads
+_within = threading.local()  # of a thread: its `depth` in idle_threads
 
 
 @contextmanager
 def idle_threads(most: int | None = None) -> Iterator[None]:
-    """Inside, torch takes no more CPU threads than cores are idle, unless someone chose a number,
-    and never more than `most`.
+    """Inside, torch takes no more CPU threads than cores are idle when the outermost begins, unless
+    someone chose a number, and never more than `most`.
 
     Threads that share out small operations wait for each other by spinning: one that has lost its
     core to another process makes all of them twenty times slower (docs/experiments.md, section 6).
     """
     from .tensors import torch, torch_is_here
 
-    before, counted = _num_threads(), getattr(_within, "counted", False)
-    _within.counted = True
-    if torch_is_here and _chosen_threads is None and not counted:  # once, by the outermost
+    before, depth = _num_threads(), getattr(_within, "depth", 0)
+    if torch_is_here and _chosen_threads is None and not depth:  # once, by the outermost
         idle = max(idle_cores() for _ in range(READINGS))
         torch.set_num_threads(max(1, min(before, idle)))
     if torch_is_here and most is not None:
         torch.set_num_threads(min(most, torch.get_num_threads()))
     try:
+        _within.depth = depth + 1
         yield
     finally:
-        _within.counted = counted
+        _within.depth -= 1
         if torch_is_here:
             torch.set_num_threads(before)
 

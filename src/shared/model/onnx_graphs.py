@@ -23,7 +23,7 @@ from .onnx_card import READY, TURNED, TextOnnxCard
 TEXT_GRAPH, DENOISER_GRAPH = "text.onnx", "denoiser.onnx"
 ADAPTED_GRAPH = "adapted.onnx"  # the denoiser with an adapter, for texts that open one
 STEP = "denoiser.one_step."  # before the names of what changes it for a single step
-SESSIONS = 6  # at most that are open: adapters, with one step and without
+SESSIONS = 14  # at most that are open: adapters, with one step and without; some 30 MB each
 
 
 def require_packages(*names: str) -> None:
@@ -164,6 +164,8 @@ class OnnxTextTower(nn.Module):
 class OnnxDenoiser(nn.Module):
     """What `MotionDenoiser` predicts, from a graph on so many threads of the CPU; called as it is,
     `card` the export's."""
+
+    one_adapter = True  # samples of a batch should open the same one: each has a session
 
     def __init__(
         self, folder: Path, config: NetworkConfig, card: TextOnnxCard, threads: int

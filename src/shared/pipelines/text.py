@@ -280,7 +280,8 @@ class SentenceGenerator:
         """How far a passage of so many frames is from showing its clause and ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.scope
         action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
-        pace, rests = self._pace(clause), scope is not None and action in scope.gestures
+        pace = self._pace(clause) if frames < math.inf else 1  # edits are shown as they are made
+        rests = scope is not None and action in scope.gestures
         if action is None or frames < LEAST * fps or not (rests or wanted):
             return None
 
@@ -389,10 +390,8 @@ class SentenceGenerator:
     def timeline(
         self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
     ) -> Motion:
-        """One motion of several texts, each read as a sentence is.
-
-        Where the timeline has times, they hold: the clauses of a text share them, and what one
-        names of its length gives way.
+        """One motion of several texts, each read as a sentence is. Where the timeline has times,
+        they hold: the clauses of a text share them, and what one names of its length gives way.
 
         Raises:
             UserError: a text asks for more than its time can hold, or as `stream_features`.
@@ -442,13 +441,12 @@ class SentenceGenerator:
         starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
         given, fps, led = Constraint.free(starts[-1]), self.card.fps, False
         for part, start, (passage, constraint) in zip(parts, starts, stretches, strict=False):
-            stop, stands = start + passage.frames, start and self._nearest(part.text) == "stand"
-            if constraint is None and stands:
+            stop, stands = start + passage.frames, start > 0 and constraint is None
+            if stands := stands and self._nearest(part.text) == "stand":
                 constraint = on_the_spot(Constraint.free(passage.frames))
             if constraint is not None:
-                given.values[start:stop] = constraint.values
+                given.values[start:stop], led = constraint.values, True
                 given.known[start:stop] = constraint.known
-                led = True
             first = STOP if stands else TURN_REST * (start > 0 and part.metres == 0)
             until = start + round(first * fps)  # who went comes to a stop first
             given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
@@ -484,7 +482,8 @@ class SentenceGenerator:
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
         for start, stop, part in zip(starts, starts[1:], parts, strict=False):
-            if (action := self._nearest(part.text)) == "clap":
+            action = self._nearest(part.text)
+            if action == "clap" and not (part.meanwhile or limbs):
                 motion = hands_meet(motion, start, stop)
             elif part.count > 1 and self._by_arms(part.text) and action not in REPETITIONS:
                 # nothing but arms that hang in between tells one wave from the next

@@ -116,16 +116,16 @@ function heelRise(hip, ball, lever, longest) {
   return axisTurn(unit(axis), clamp(angle - Math.acos(clamp(cosine, -1, 1)), 0, MAX_RISE));
 }
 
-export function twoBones(hip, thigh, shin, upper, lower, target) {
+export function twoBones(hip, thigh, shin, upper, lower, target, hinge = [-1, 0, 0]) {
   const lengthUpper = norm(upper), lengthLower = norm(lower);
   const before = norm(add(apply(thigh, upper), apply(shin, lower)));
-  const longest = Math.max(before, MAX_STRETCH * LEG_LENGTH);
+  const longest = Math.max(before, MAX_STRETCH * (lengthUpper + lengthLower));
   const shortest = 1.05 * Math.abs(lengthUpper - lengthLower) + 0.05;
   const wanted = norm(sub(target, hip));
   const reach = Math.max(Math.min(wanted, longest), Math.min(before, shortest));
   for (let round = 0; round < 2; round++) {
     const toKnee = apply(thigh, upper), toAnkle = add(toKnee, apply(shin, lower));
-    const axis = kneeAxis(toAnkle, toKnee, thigh), length = norm(toAnkle);
+    const axis = kneeAxis(toAnkle, toKnee, apply(thigh, hinge)), length = norm(toAnkle);
     const atHip = corner(lengthUpper, reach, lengthLower) - corner(lengthUpper, length, lengthLower);
     const atKnee = corner(lengthUpper, lengthLower, reach) - corner(lengthUpper, lengthLower, length);
     thigh = multiply(axisTurn(axis, atHip), thigh);
@@ -139,11 +139,10 @@ export function twoBones(hip, thigh, shin, upper, lower, target) {
 
 const corner = (a, b, opposite) => Math.acos(clamp((a * a + b * b - opposite * opposite) / (2 * a * b), -1, 1));
 
-function kneeAxis(toAnkle, toKnee, thigh) {
+function kneeAxis(toAnkle, toKnee, hinge) {
   const normal = cross(toAnkle, toKnee);
   const sine = norm(normal) / Math.max(norm(toAnkle) * norm(toKnee), 1e-9);
   const own = clamp((sine - STRAIGHT) / (BENT - STRAIGHT), 0, 1), along = unit(toAnkle);
-  let hinge = [-thigh[0], -thigh[3], -thigh[6]];
   hinge = sub(hinge, scale(along, dot(hinge, along)));
   return unit(add(scale(unit(normal), own), scale(unit(hinge), 1 - own)));
 }

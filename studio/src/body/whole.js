@@ -106,7 +106,7 @@ export function handsMeet(motion, start = 0, stop = motion.frames) {
     if (!closer[t]) continue;
     for (const [i, [collar, shoulder, elbow, wrist]] of ARMS.entries()) {
       const target = add(positions[wrist], scale(unit(between[t]), ((i ? -1 : 1) * closer[t]) / 2));
-      const [upper, lower] = twoBones(positions[shoulder], world[shoulder], world[elbow], SKELETON.offsets[elbow], SKELETON.offsets[wrist], target);
+      const [upper, lower] = twoBones(positions[shoulder], world[shoulder], world[elbow], SKELETON.offsets[elbow], SKELETON.offsets[wrist], target, [0, i ? -1 : 1, 0]);
       const chain = [world[collar], upper, lower, world[wrist]];
       for (const [k, joint] of [shoulder, elbow, wrist].entries())
         quaternions.set(quaternionOf(multiply(transposed(chain[k]), chain[k + 1])), ((start + t) * JOINTS + joint) * 4);

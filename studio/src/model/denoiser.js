@@ -34,7 +34,7 @@ export class Denoiser {
     return this.sessions[key];
   }
 
-  /** What the graph hears of an adapter (src/shared/model/generation/onnx_networks.py) for so many samples. */
+  /** What the graph hears of an adapter (docs/onnx.md) for so many samples. */
   adapter(opened, samples) {
     const key = `${opened} ${samples}`;
     if (!this.adapters[key]) {

@@ -198,7 +198,7 @@ export class Director {
     const motion = postProcess(features, this.settings.post, { text });
     let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
     for (const [i, { count, text }] of parts.entries())
-      if (this.nearest(text) === "clap") rested = handsMeet(rested, shown[i], shown[i] + lengths[i]);
+      if (this.nearest(text) === "clap" && !parts[i].meanwhile) rested = handsMeet(rested, shown[i], shown[i] + lengths[i]);
       else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
         const joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((lengths[i] * (k + 1)) / count));
         rested = restToRest(rested, joins.map((at) => shown[i] + at));
@@ -398,7 +398,7 @@ export class Director {
   miss(clause, frames) {
     const wanted = this.wanted(clause.text), action = this.nearest(clause.text), side = this.reader.sideOf(clause.text);
     if (action === null || frames < LEAST * FPS) return null;
-    const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = this.pace(clause);
+    const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = frames < Infinity ? this.pace(clause) : 1; // edits are shown as they are made
     if (wanted === null && !rests) return null;
     return (features) => {
       const motion = pace > 1 ? handsMeet(postProcess(hastened(features, pace), this.settings.post, {})) : decodeFeatures(features);

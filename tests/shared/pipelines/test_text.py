@@ -17,7 +17,7 @@ from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_res
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES
-from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
+from src.shared.motion.features import ROOT_ROW, YAW_RATE, decode_features, encode_features
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
@@ -422,6 +422,40 @@ def test_metres_that_nobody_goes_in_their_seconds_take_their_own(
     fast, other = sentences.generate(["walk ten metres in two seconds", "a person waves"])
     assert fast.seconds > 2.5 and other.num_frames == 120
     assert "too long for its time" in caplog.text
+
+
+def test_who_stands_further_on_is_led_there_at_once(
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch
+):
+    sentences, made = SentenceGenerator(starter), []
+    for free in (1.0, 0.0):
+        monkeypatch.setattr("src.shared.pipelines.text.STOP", free)
+        made += sentences.generate(["runs, then stands two metres further"], seconds=3.0)
+    np.testing.assert_array_equal(*[motion.root_position for motion in made])
+
+
+def test_claps_of_an_edit_are_seen_as_they_are_made(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    seen = sentences.unseen("claps")
+    assert seen is not None
+    samples = starter.sample_features(["claps three times"] * 6, seconds=3.0, seed=1)
+    for made in samples:
+        shown = measure(decode_features(made, fps=30.0)).claps >= 1
+        assert (seen(made) == 0) == shown
+
+
+def test_hands_that_do_something_else_are_not_brought_together(
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch
+):
+    spans: list[tuple[int, ...]] = []
+    monkeypatch.setattr(
+        "src.shared.pipelines.text.hands_meet", lambda m, *span: spans.append(span) or m
+    )
+    sentences = SentenceGenerator(starter)
+    sentences.generate(["claps while raising the left arm"], seconds=3.0)
+    spans_meanwhile = [*spans]
+    sentences.generate(["walks, then claps twice"], seconds=3.0)
+    assert not [span for span in spans_meanwhile if span[0]] and spans[-1][0] > 0
 
 
 def test_what_kinematics_miss_is_sampled_again(

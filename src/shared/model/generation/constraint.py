@@ -280,18 +280,25 @@ def make_requests(
 
 
 def batches(
-    requests: Sequence[SampleRequest], size: int, *, equal_lengths: bool
+    requests: Sequence[SampleRequest],
+    size: int,
+    *,
+    equal_lengths: bool,
+    kinds: Sequence[int] | None = None,
 ) -> Iterator[list[int]]:
     """Indices of at most `size` requests of like length, the shortest first.
 
     Args:
         equal_lengths: never two lengths in one batch. Samplers that draw noise on the way need
             it, or the padding would shift the streams.
+        kinds: of the requests: never two of them in one batch; the least first.
     """
+    kinds = kinds or [0] * len(requests)
     batch: list[int] = []
-    for index in sorted(range(len(requests)), key=lambda i: requests[i].frames):
+    for index in sorted(range(len(requests)), key=lambda i: (kinds[i], requests[i].frames)):
         other_length = bool(batch) and requests[batch[-1]].frames != requests[index].frames
-        if len(batch) == size or (equal_lengths and other_length):
+        other_kind = bool(batch) and kinds[batch[-1]] != kinds[index]
+        if len(batch) == size or other_kind or (equal_lengths and other_length):
             yield batch
             batch = []
         batch.append(index)

@@ -112,6 +112,8 @@ class MotionDenoiser(nn.Module):
     `one-step-rank` it holds what it becomes for one step, see `in_one_step`.
     """
 
+    one_adapter = False  # samples of a batch may open different ones
+
     def __init__(self, config: NetworkConfig, num_tags: int) -> None:
         super().__init__()
         generation, dim = config.generation, config.embed_dim

@@ -343,7 +343,12 @@ class TextToMotion:
         samples: dict[int, Tensor] = {}
         # Neither draws nor rhythm guidance leave padding out, and company must change nothing.
         size = ON_CPU if self.device.type == "cpu" else MAX_BATCH
-        for batch in batches(requests, size, equal_lengths=draws_on_the_way or led):
+        kinds = None
+        if self.denoiser.one_adapter and text.opened is not None:
+            opened = np.asarray(text.opened)
+            own = np.where(opened.any(1), opened.argmax(1) + 1, 0)
+            kinds = [int(own[row_of[request.prompt]]) for request in requests]
+        for batch in batches(requests, size, equal_lengths=draws_on_the_way or led, kinds=kinds):
             chosen = [requests[index] for index in batch]
             rows = torch.tensor([row_of[request.prompt] for request in chosen], device=self.device)
             known = KnownBatch.of(

@@ -18,6 +18,7 @@ from pathlib import Path
 import torch
 from torch import Tensor, nn
 
+from ...errors import UserError
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
 from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
 from ..clip.features import TextFeatures
@@ -172,6 +173,21 @@ class DenoiserGraph(nn.Module):
         return result
 
 
+def _check_changed(denoiser: MotionDenoiser, source: Path) -> None:
+    """Raises UserError where weights that change with an adapter or for one step are alike: a graph
+    keeps one for all that are."""
+    one_step, changed = denoiser.one_step, list[Tensor]()
+    if one_step is not None:
+        changed = [denoiser.get_parameter(name) for name in one_step.weights(denoiser)]
+    elif denoiser.config.generation.adapter_ranks:
+        changed = [m.weight for m in denoiser.modules() if isinstance(m, AdaptedLinear)]
+    if alike := len(changed) - len({each.detach().numpy().tobytes() for each in changed}):
+        raise UserError(
+            f"{source}: {alike} of the weights that an adapter or a learned step changes are like"
+            " others, so that a graph cannot tell them apart; train the model on, then export it"
+        )
+
+
 def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     """Write a model folder with both graphs, and the card that vouches for them.
 
@@ -185,6 +201,7 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     source, folder = resolve_model(model), Path(folder)
     generator = TextToMotion.from_pretrained(source, device="cpu")
     denoiser, config = generator.denoiser, generator.network
+    _check_changed(denoiser, source)
     rows, channels = generator.mean.shape
     frames, dim, tokens = EXAMPLE_FRAMES, config.embed_dim, denoiser.uses_tokens
     batch, whole = {0: "batch"}, {0: "batch", 1: "frames"}

@@ -8,6 +8,7 @@ toes flat, before the foot gives way. Runs on the CPU in float64.
 Letters: T frames, J joints, `...` any leading dimensions, mostly frames.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -34,6 +35,7 @@ EASE = 10  # frames until a leg is held as if nothing of it had been kept
 MAX_STRETCH = 0.995  # of the leg's length; beyond it a leg is only as long as it already was
 RISE_AT = 0.97  # of the leg's length, from which on the heel rises instead
 MAX_RISE = 0.8  # radians that a foot turns about its ball
+KNEE = (-1.0, 0.0, 0.0)  # its hinge: it bends towards +Z
 STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over from the hinge
 
 
@@ -165,12 +167,18 @@ def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tens
 
 
 def two_bone_ik(
-    hip: Tensor, thigh: Tensor, shin: Tensor, upper: Tensor, lower: Tensor, target: Tensor
+    hip: Tensor,
+    thigh: Tensor,
+    shin: Tensor,
+    upper: Tensor,
+    lower: Tensor,
+    target: Tensor,
+    hinge: Sequence[float] = KNEE,
 ) -> tuple[Tensor, Tensor]:
     """World rotations [...,3,3] of thigh and shin that bring the ankle to its target.
 
     The knee bends or opens in its own plane, then the whole leg swings the shortest way, so the
-    knee keeps its direction. A straight leg bends about its hinge, forward.
+    knee keeps its direction. A straight leg bends about its hinge, forward. An arm is one, too.
 
     Args:
         hip: world positions [...,3], metres.
@@ -179,17 +187,18 @@ def two_bone_ik(
         upper: rest offset of the knee from the hip [3], metres.
         lower: rest offset of the ankle from the knee [3], metres.
         target: wanted world positions of the ankle [...,3]; nearer if out of reach.
+        hinge: axis in the thigh's frame that turns the hip–ankle line towards the knee [3].
     """
     length_upper, length_lower = upper.norm(), lower.norm()
     before = (thigh @ upper + shin @ lower).norm(dim=-1)
-    longest = before.clip(min=MAX_STRETCH * LEG_LENGTH)
+    longest = before.clip(min=MAX_STRETCH * float(length_upper + length_lower))
     shortest = 1.05 * (length_upper - length_lower).abs() + 0.05
     wanted = (target - hip).norm(dim=-1)
     reach = wanted.minimum(longest).maximum(before.minimum(shortest))
     for _ in range(2):  # the hinge is not quite square to a nearly straight leg: once more
         to_knee, shank = thigh @ upper, shin @ lower
         to_ankle = to_knee + shank
-        axis = _knee_axis(to_ankle, to_knee, thigh)
+        axis = _knee_axis(to_ankle, to_knee, thigh @ thigh.new_tensor(hinge))
         length = to_ankle.norm(dim=-1)
         at_hip = _corner(length_upper, reach, length_lower) - _corner(
             length_upper, length, length_lower
@@ -209,11 +218,10 @@ def _corner(a: Tensor, b: Tensor, opposite: Tensor) -> Tensor:
     return torch.acos(((a**2 + b**2 - opposite**2) / (2 * a * b)).clip(-1, 1))
 
 
-def _knee_axis(to_ankle: Tensor, to_knee: Tensor, thigh: Tensor) -> Tensor:
+def _knee_axis(to_ankle: Tensor, to_knee: Tensor, hinge: Tensor) -> Tensor:
     """Unit axis [...,3] that turns the hip–ankle line towards the knee.
 
-    The normal of the leg's plane, and for a straight leg, which has none, the thigh's hinge: the
-    knee bends towards +Z, that is about -X of the thigh.
+    The normal of the leg's plane, and for a straight leg, which has none, its hinge.
     """
     normal = torch.linalg.cross(to_ankle, to_knee)
     sine = normal.norm(dim=-1, keepdim=True) / (
@@ -221,7 +229,6 @@ def _knee_axis(to_ankle: Tensor, to_knee: Tensor, thigh: Tensor) -> Tensor:
     ).clip(min=1e-9)
     own = ((sine - STRAIGHT) / (BENT - STRAIGHT)).clip(0, 1)
     along = F.normalize(to_ankle, dim=-1)
-    hinge = -thigh[..., :, 0]
     hinge = hinge - (hinge * along).sum(-1, keepdim=True) * along
     blend = own * F.normalize(normal, dim=-1) + (1 - own) * F.normalize(hinge, dim=-1)
     return F.normalize(blend, dim=-1)

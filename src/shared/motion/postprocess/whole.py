@@ -245,6 +245,8 @@ def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
     them. Hands keep their world rotation; claps that are nearer stay as they are. Runs on the
     CPU in float64.
     """
+    if stop <= start:
+        return motion
     quaternions = torch.as_tensor(motion.quaternions[start:stop], dtype=torch.float64)
     root = torch.as_tensor(motion.root_position[start:stop], dtype=torch.float64)
     offsets = torch.as_tensor(canonical_skeleton().offsets, dtype=torch.float64)
@@ -255,7 +257,7 @@ def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
     if not len(at):
         return motion
     step = (lacking[:, None] * F.normalize(between, dim=-1))[at] / 2
-    for (collar, shoulder, elbow, wrist), way in zip(ARMS, (1, -1), strict=True):
+    for (collar, shoulder, elbow, wrist), way in zip(ARMS, (1.0, -1.0), strict=True):
         upper, lower = two_bone_ik(
             positions[at, shoulder],
             world[at, shoulder],
@@ -263,6 +265,7 @@ def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
             offsets[elbow],
             offsets[wrist],
             positions[at, wrist] + way * step,
+            (0.0, way, 0.0),  # elbows bend forward, out of the T-pose
         )
         above = torch.stack((world[at, collar], upper, lower), 1)
         below = torch.stack((upper, lower, world[at, wrist]), 1)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import torch
 
+from src.shared.errors import UserError
 from src.shared.io.files import sha256_file
 from src.shared.model.checkpoint import WEIGHTS_FILE, read_card, read_tensors, resolve_model
 from src.shared.model.clip.core import TextTower
@@ -171,3 +172,10 @@ def test_shipped_graphs_hold_no_weights() -> None:
         stored = onnx.load(folder / name, load_external_data=False).graph.initializer
         held = [each for each in stored if each.data_location != onnx.TensorProto.EXTERNAL]
         assert sum(len(each.raw_data) for each in held) < 4096
+
+
+def test_weights_that_no_graph_can_tell_apart_are_refused(make_generator, tmp_path: Path) -> None:
+    make_generator(one_step_rank=2).save_pretrained(tmp_path / "model")  # its biases are all zero
+    with pytest.raises(UserError, match="cannot tell them apart; train the model on"):
+        export_text(tmp_path / "model", tmp_path / "onnx")
+    assert not (tmp_path / "onnx").exists()

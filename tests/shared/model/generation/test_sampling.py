@@ -51,15 +51,19 @@ def test_a_prompt_given_twice_gets_two_motions():
     lengths=st.lists(st.integers(8, 12), min_size=1, max_size=20),
     size=st.integers(1, 5),
     equal=st.booleans(),
+    apart=st.booleans(),
 )
-def test_batches_hold_every_request_once(lengths: list[int], size: int, equal: bool):
+def test_batches_hold_every_request_once(lengths: list[int], size: int, equal: bool, apart: bool):
     requests = [SampleRequest("a", frames, 0, (0, 0, 0)) for frames in lengths]
-    found = list(batches(requests, size, equal_lengths=equal))
+    kinds = [frames % 3 for frames in lengths] if apart else None
+    found = list(batches(requests, size, equal_lengths=equal, kinds=kinds))
     assert sorted(index for batch in found for index in batch) == list(range(len(lengths)))
     for batch in found:
         assert 0 < len(batch) <= size
         if equal:
             assert len({lengths[index] for index in batch}) == 1
+        if kinds:
+            assert len({kinds[index] for index in batch}) == 1
 
 
 @pytest.mark.parametrize(
