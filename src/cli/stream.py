@@ -1,9 +1,12 @@
 """`stream`: a body that moves while sentences are typed, out to whoever listens."""
 
+import math
 import os
+import queue
 import socket
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import ExitStack
 from typing import Annotated
@@ -15,7 +18,8 @@ from ..shared.errors import UsageError, UserError
 from . import options
 from .console import check_range, complain, tell
 
-AFTER = 4.0  # seconds of motion after a sentence of a pipe: before the next one, or the end
+AFTER = 4.0  # seconds of motion after a sentence of a file: before the next one, or the end
+AT_ONCE = 1.0  # seconds: lines of a pipe that come no further apart are a file's
 VMC_PORT = 39539
 
 
@@ -104,13 +108,12 @@ def stream(
                 complain(f"warning: {warning}")
 
     def listen() -> None:
-        try:
-            for number, line in enumerate(_lines()):
-                if number and not sys.stdin.isatty():
-                    body.wait(AFTER)  # so that each line of a file is seen
-                say(line)
-        except (OSError, ValueError):  # closed while it was read
-            pass
+        before = -math.inf
+        for came, line in _as_they_come(_lines()):
+            if came - before < AT_ONCE and not sys.stdin.isatty():
+                body.wait(AFTER)  # so that each line of a file is seen
+            before = came
+            say(line)
         if seconds is None and websocket is None:
             body.stop(AFTER)
 
@@ -143,6 +146,23 @@ def stream(
     late = figures.latencies
     heard = f", a sentence seen after {max(late):.2f} s at most" if late else ""
     tell(f"{figures.frames} frames, made {figures.speed:.1f} times as fast as they pass{heard}")
+
+
+def _as_they_come(lines: Iterator[str]) -> Iterator[tuple[float, str]]:
+    """The lines, and when each came, while whoever reads them may still be busy with one before."""
+    come: queue.SimpleQueue[tuple[float, str] | None] = queue.SimpleQueue()
+
+    def read() -> None:
+        try:
+            for line in lines:
+                come.put((time.monotonic(), line))
+        except (OSError, ValueError):  # closed while it was read
+            pass
+        come.put(None)
+
+    threading.Thread(target=read, daemon=True).start()
+    while (found := come.get()) is not None:
+        yield found
 
 
 def _lines() -> Iterator[str]:

@@ -6,6 +6,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -35,6 +36,26 @@ def test_sentences_from_a_pipe() -> None:
     assert [frame["frame"] for frame in frames] == list(range(60))
     assert frames[-1]["text"] == "a person waves"
     assert "60 frames" in result.stderr and "torch" not in result.stderr
+
+
+@pytest.mark.parametrize(("apart", "late"), [(1.4, False), (0.0, True)])
+def test_lines_of_a_pipe_are_heard_as_they_come_those_of_a_file_are_each_seen(
+    apart: float, late: bool
+) -> None:
+    command = [sys.executable, "-m", "src.cli.tools", "stream", "--steps", "1", "--no-foot-lock"]
+    pipes: dict[str, Any] = dict.fromkeys(("stdin", "stdout"), subprocess.PIPE)
+    with subprocess.Popen([*command, "--seconds", "8"], cwd=ROOT, text=True, **pipes) as process:
+        assert process.stdin is not None and process.stdout is not None
+        first = process.stdout.readline()
+        for sentence in ("a person waves", "a person jumps"):
+            process.stdin.write(sentence + "\n")
+            process.stdin.flush()
+            time.sleep(apart)
+        rest, _ = process.communicate(timeout=120)
+    texts = [json.loads(line)["text"] for line in [first, *rest.splitlines()]]
+    assert len(texts) == 240
+    waves, jumps = (texts.index(f"a person {does}") for does in ("waves", "jumps"))
+    assert (jumps - waves >= 115) == late  # four seconds of frames
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT there")
