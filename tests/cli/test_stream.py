@@ -38,7 +38,7 @@ def test_sentences_from_a_pipe() -> None:
     assert "60 frames" in result.stderr and "torch" not in result.stderr
 
 
-@pytest.mark.parametrize(("apart", "late"), [(1.4, False), (0.0, True)])
+@pytest.mark.parametrize(("apart", "late"), [(2.0, False), (0.0, True)])
 def test_lines_of_a_pipe_are_heard_as_they_come_those_of_a_file_are_each_seen(
     apart: float, late: bool
 ) -> None:
