@@ -20,6 +20,7 @@ from .console import check_range, complain, tell
 
 AFTER = 4.0  # seconds of motion after a sentence of a file: before the next one, or the end
 AT_ONCE = 1.0  # seconds: lines of a pipe that come no further apart are a file's
+AHEAD = 1_000  # lines that are read before their turn
 VMC_PORT = 39539
 
 
@@ -109,7 +110,7 @@ def stream(
 
     def listen() -> None:
         before = -math.inf
-        for came, line in _as_they_come(_lines()):
+        for came, line in _as_they_come():
             if came - before < AT_ONCE and not sys.stdin.isatty():
                 body.wait(AFTER)  # so that each line of a file is seen
             before = came
@@ -148,14 +149,14 @@ def stream(
     tell(f"{figures.frames} frames, made {figures.speed:.1f} times as fast as they pass{heard}")
 
 
-def _as_they_come(lines: Iterator[str]) -> Iterator[tuple[float, str]]:
-    """The lines, and when each came, while whoever reads them may still be busy with one before."""
-    come: queue.SimpleQueue[tuple[float, str] | None] = queue.SimpleQueue()
+def _as_they_come() -> Iterator[tuple[float, str]]:
+    """Of `_lines`, while whoever hears them may still be busy with one before."""
+    come: queue.Queue[tuple[float, str] | None] = queue.Queue(AHEAD)
 
     def read() -> None:
         try:
-            for line in lines:
-                come.put((time.monotonic(), line))
+            for found in _lines():
+                come.put(found)
         except (OSError, ValueError):  # closed while it was read
             pass
         come.put(None)
@@ -165,19 +166,20 @@ def _as_they_come(lines: Iterator[str]) -> Iterator[tuple[float, str]]:
         yield found
 
 
-def _lines() -> Iterator[str]:
-    """Lines of standard input as they come, past Python's buffer: an interpreter that ends while a
-    thread waits in that one aborts."""
+def _lines() -> Iterator[tuple[float, str]]:
+    """Lines of standard input and when each came, past Python's buffer: an interpreter that ends
+    while a thread waits in that one aborts."""
     try:
         source = None if os.name == "nt" else sys.stdin.fileno()  # a console there is no bytes
     except (AttributeError, OSError, ValueError):  # it is no file, or closed
         source = None
     if source is None:
-        yield from sys.stdin or ()
+        yield from ((time.monotonic(), line) for line in sys.stdin or ())
         return
     begun, encoding = b"", sys.stdin.encoding or "utf-8"
     while block := os.read(source, 1 << 16):
+        came = time.monotonic()
         *whole, begun = (begun + block).split(b"\n")
-        yield from (line.decode(encoding, "replace") for line in whole)
+        yield from ((came, line.decode(encoding, "replace")) for line in whole)
     if begun:
-        yield begun.decode(encoding, "replace")
+        yield time.monotonic(), begun.decode(encoding, "replace")

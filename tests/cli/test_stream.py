@@ -1,5 +1,6 @@
 """`stream`: sentences piped in, frames out, on stdout and by VMC."""
 
+import itertools
 import json
 import os
 import signal
@@ -14,6 +15,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from src.cli import stream as stream_module
 from src.cli.tools import app
 
 ROOT = Path(__file__).parents[2]
@@ -56,6 +58,18 @@ def test_lines_of_a_pipe_are_heard_as_they_come_those_of_a_file_are_each_seen(
     assert len(texts) == 240
     waves, jumps = (texts.index(f"a person {does}") for does in ("waves", "jumps"))
     assert (jumps - waves >= 115) == late  # four seconds of frames
+
+
+def test_a_pipe_that_never_ends_is_read_no_further_than_a_bit_ahead(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read = []
+    endless = ((0.0, str(number)) for number in itertools.count() if not read.append(number))
+    monkeypatch.setattr(stream_module, "_lines", lambda: endless)
+    lines = stream_module._as_they_come()
+    assert [next(lines)[1] for _ in range(3)] == ["0", "1", "2"]
+    time.sleep(0.5)
+    assert len(read) < stream_module.AHEAD + 10
 
 
 @pytest.mark.skipif(os.name == "nt", reason="no SIGINT there")

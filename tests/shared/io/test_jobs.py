@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -57,6 +58,14 @@ def test_a_killed_worker_is_one_line(tmp_path: Path) -> None:
     _, errors = start(tmp_path, "die").communicate(timeout=300)
     assert errors.startswith("error: a worker process was killed")
     assert len(errors.splitlines()) == 1
+
+
+def test_a_pool_that_broke_leaves_no_thread_behind(tmp_path: Path) -> None:
+    before = {*threading.enumerate()}
+    with pytest.raises(UserError, match="a worker process was killed"):
+        list(run_jobs(die, [tmp_path] * 4, 2))
+    left = {*threading.enumerate()} - before
+    assert not [thread.name for thread in left if "Executor" in type(thread).__name__]
 
 
 def test_a_job_whose_worker_died_is_done_by_another(tmp_path: Path, scheduler: str) -> None:
