@@ -11,13 +11,20 @@ const READ = "This animation is stored in a way the studio does not read.";
 
 /** A motion of a file. @param {object[]} profiles names of joints, see configs/skeletons.yaml */
 export function readClip(name, bytes, profiles) {
-  try {
+  return orDamaged(() => {
     if (/\.(glb|vrma)$/i.test(name)) return retarget(glbClip(bytes), profiles);
     if (/\.bvh$/i.test(name)) return retarget(bvhClip(new TextDecoder().decode(bytes)), profiles);
+    throw new Error("Only .bvh, .glb, .vrma and .vrm can be opened.");
+  });
+}
+
+/** What is read; what a missing or foreign entry leads to is told as one sentence. */
+export function orDamaged(read) {
+  try {
+    return read();
   } catch (error) {
-    throw error.constructor === Error ? error : new Error("This file is damaged; export it again."); // what a missing or foreign entry leads to
+    throw error.constructor === Error ? error : new Error("This file is damaged; export it again.");
   }
-  throw new Error("Only .bvh, .glb and .vrma can be opened.");
 }
 
 function bvhClip(text) {
@@ -63,40 +70,55 @@ function bvhClip(text) {
   return { names: joints.map(({ name }) => name), parents: joints.map(({ parent }) => parent), offsets: joints.map(({ offset }) => offset), frames, fps, rotation, translation };
 }
 
-/** All nodes as joints whose axes are the world's at rest; sampled at the rate of the densest keys. */
-function glbClip(bytes) {
-  const { document, data } = readGlb(bytes), { animations = [] } = document, nodes = (document.nodes ?? []).map(posed);
-  if (!animations[0]?.channels.length) throw new Error("There is no animation in this file.");
-  if (nodes.length > MAX_JOINTS) throw new Error(`This file has more than ${MAX_JOINTS} joints.`);
-  const above = new Array(nodes.length).fill(-1), order = [];
+/** The nodes of a file as joints whose axes are the world's at rest, parents first: their nodes, names, parents, offsets, and their own axes and sizes at rest. */
+export function treeOf({ nodes: raw = [], extensions = {} }) {
+  if (raw.length > MAX_JOINTS) throw new Error(`This file has more than ${MAX_JOINTS} joints.`);
+  const nodes = raw.map(posed), above = new Array(nodes.length).fill(-1), order = [];
   nodes.forEach(({ children = [] }, node) => children.forEach((child) => { above[child] = node; }));
   const visit = (node) => { order.push(node); (nodes[node].children ?? []).forEach(visit); };
   above.forEach((parent, node) => { if (parent < 0) visit(node); });
-  const tracks = tracksOf(document, data, animations[0]);
-  const named = document.extensions?.VRMC_vrm_animation?.humanoid?.humanBones ?? {};
-  const bones = new Map(Object.entries(named).map(([bone, { node }]) => [node, bone]));
-  const place = new Map(order.map((node, index) => [node, index])), rest = [], sizes = [];
-  const local = (node) => { const [x, y, z, w] = nodes[node].rotation ?? [0, 0, 0, 1]; return matrixOf([w, x, y, z]); };
+  const place = new Map(order.map((node, index) => [node, index])), bones = bonesOf(extensions), rest = [], sizes = [];
+  const local = (index) => { const [x, y, z, w] = nodes[order[index]].rotation ?? [0, 0, 0, 1]; return matrixOf([w, x, y, z]); };
   const parents = order.map((node) => (above[node] < 0 ? -1 : place.get(above[node])));
-  order.forEach((node, index) => {
-    const parent = parents[index], [size] = nodes[node].scale ?? [1];
-    rest.push(parent < 0 ? local(node) : multiply(rest[parent], local(node)));
+  parents.forEach((parent, index) => {
+    const [size] = nodes[order[index]].scale ?? [1];
+    rest.push(parent < 0 ? local(index) : multiply(rest[parent], local(index)));
     sizes.push((parent < 0 ? 1 : sizes[parent]) * size);
   });
-  const frame = (index) => (parents[index] < 0 ? IDENTITY : rest[parents[index]]);
+  const frame = (index) => (parents[index] < 0 ? IDENTITY : rest[parents[index]]); // the parent's
   const size = (index) => (parents[index] < 0 ? 1 : sizes[parents[index]]);
   const inWorld = (index, vector) => apply(frame(index), vector).map((x) => x * size(index));
+  return {
+    nodes, order, parents, rest, bones, local, frame, size, inWorld,
+    names: order.map((node) => bones.get(node) ?? nodes[node].name ?? ""),
+    offsets: order.map((node, index) => inWorld(index, nodes[node].translation ?? [0, 0, 0])),
+  };
+}
+
+/** What VRM calls nodes (avatars of 0.x and 1.0, animations). */
+function bonesOf({ VRMC_vrm, VRMC_vrm_animation, VRM }) {
+  const named = (VRMC_vrm ?? VRMC_vrm_animation)?.humanoid?.humanBones;
+  const rows = named ? Object.entries(named).map(([bone, { node }]) => ({ bone, node })) : (VRM?.humanoid?.humanBones ?? []);
+  return new Map(rows.map(({ bone, node }) => [node, bone]));
+}
+
+/** Sampled at the rate of the densest keys. */
+function glbClip(bytes) {
+  const { document, data } = readGlb(bytes), { animations = [] } = document;
+  if (!animations[0]?.channels.length) throw new Error("There is no animation in this file.");
+  const { nodes, order, names, parents, offsets, rest, local, frame, inWorld } = treeOf(document);
+  const tracks = tracksOf(document, data, animations[0]);
   const { times, fps } = evenTimes([...tracks.values()].map(({ times }) => times));
   return {
-    names: order.map((node) => bones.get(node) ?? nodes[node].name ?? ""),
+    names,
     parents,
-    offsets: order.map((node, index) => inWorld(index, nodes[node].translation ?? [0, 0, 0])),
+    offsets,
     frames: times.length,
     fps,
     up: "Y", // says glTF
     rotation: (t, index) => {
       const track = tracks.get(`${order[index]} rotation`);
-      const turn = track ? matrixOf(keyAt(track, times[t])) : local(order[index]);
+      const turn = track ? matrixOf(keyAt(track, times[t])) : local(index);
       return multiply(multiply(frame(index), turn), transposed(rest[index]));
     },
     translation: (t, index) => {

@@ -55,7 +55,7 @@ export function writeGlb(motion, template) {
   return packed(new TextEncoder().encode(JSON.stringify(document)), whole);
 }
 
-function packed(text, data) {
+export function packed(text, data) {
   const sizes = [text.length + (-text.length & 3), data.length + (-data.length & 3)];
   const bytes = new Uint8Array(28 + sizes[0] + sizes[1]).fill(32, 20, 20 + sizes[0]), view = new DataView(bytes.buffer);
   [0x46546c67, 2, bytes.length, sizes[0], JSON_CHUNK].forEach((value, i) => view.setUint32(i * 4, value, true));

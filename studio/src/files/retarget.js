@@ -10,6 +10,7 @@ import { percentile } from "../body/curves.js";
 import { FEET, FPS, INDEX, JOINTS, LEG_LENGTH, pose, REST_FOOT_HEIGHT, SKELETON } from "../body/skeleton.js";
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1], STANDING = 0.7, PELVIS = [0.45, 0.8], SAMPLES = 200, MAX_FRAMES = 18000;
+const FIRST = "Bring it onto our skeleton first: motion-tools convert CLIP a.npz, then a.npz a.bvh.";
 const NEAR_RATE = 0.01, SAME_RATE = 1e-3, ROUNDED = 2e-5, SAME_BONES = 1e-4, CALIBRATION_JUMP = 0.15, SHORT_LEGS = 1.2;
 const AIM = {
   spine1: "spine2", neck: "head", l_collar: "l_shoulder", r_collar: "r_shoulder", l_shoulder: "l_elbow",
@@ -32,7 +33,7 @@ export function retarget(clip, profiles) {
   if (clip.frames < 2) throw new Error("The clip has one frame only.");
   const rest = restFrame(clip, joints);
   if (!rest && !Object.keys(axes).length)
-    throw new Error("Its rest pose is no standing body. Bring it onto our skeleton first: motion-tools convert CLIP a.npz, then a.npz a.bvh.");
+    throw new Error(`Its rest pose is no standing body. ${FIRST}`);
   const ours = isOurs(clip, joints), legs = legLength(clip, joints);
   if (!(legs > 1e-6)) throw new Error("Its legs have no length.");
   const turn = ours ? IDENTITY : upright(clip.up ?? detectUp(clip, joints, rest));
@@ -51,7 +52,7 @@ export function retarget(clip, profiles) {
 const plain = (name) => name.replace(/^.*[:|]/, "").replace(/^mixamorig\d*/i, "").replace(/[^\p{L}\p{N}]/gu, "").toLowerCase();
 
 /** Our joint -> index in the file, and axes by our joint, of the profile that fits best. */
-function mappingOf(names, profiles) {
+export function mappingOf(names, profiles, remedy = FIRST) {
   const spelled = new Map(), heads = new Map();
   for (const name of names) {
     const head = /^[^ _.\-]+[ _.\-]/.exec(name)?.[0];
@@ -79,20 +80,20 @@ function mappingOf(names, profiles) {
   const all = SKELETON.names.length - OPTIONAL.length;
   const [best] = [...found].sort((a, b) => required(b) - required(a) || Object.keys(b.joints).length - Object.keys(a.joints).length || a.size - b.size);
   if (required(best) < all)
-    throw new Error("Its joints have names the studio does not know. Bring it onto our skeleton first: motion-tools convert CLIP a.npz, then a.npz a.bvh.");
+    throw new Error(`Its joints have names the studio does not know. ${remedy}`);
   return best;
 }
 
 // ---------------------------------------------------------------- at rest
 
-function lineOf(clip, joint, descendant) {
+export function lineOf(clip, joint, descendant) {
   const line = [];
   while (descendant !== joint && descendant >= 0) { line.push(descendant); descendant = clip.parents[descendant]; }
   return descendant === joint ? line : [];
 }
 const boneOf = (clip, joint, descendant) => lineOf(clip, joint, descendant).reduce((sum, at) => add(sum, clip.offsets[at]), [0, 0, 0]);
 
-function legLength(clip, joints) {
+export function legLength(clip, joints) {
   const parts = ["l", "r"].map((s) => norm(boneOf(clip, joints[`${s}_hip`], joints[`${s}_knee`])) + norm(boneOf(clip, joints[`${s}_knee`], joints[`${s}_ankle`])));
   return (parts[0] + parts[1]) / 2;
 }
@@ -112,7 +113,7 @@ function isOurs(clip, joints) {
 }
 
 /** Rows left, up, forward of a body that stands in the rest pose; null where none does. */
-function restFrame(clip, joints) {
+export function restFrame(clip, joints) {
   const rest = [];
   clip.parents.forEach((parent, joint) => rest.push(parent < 0 ? clip.offsets[joint] : add(rest[parent], clip.offsets[joint])));
   const at = (name) => rest[joints[name]];
@@ -131,7 +132,7 @@ function restFrame(clip, joints) {
 }
 
 /** world(ours) = world(source) x correction, by our joint. */
-function corrections(clip, joints, axes, rest) {
+export function corrections(clip, joints, axes, rest) {
   const turns = {}, found = {};
   for (const ours of SKELETON.names) {
     if (!(ours in joints)) continue;

@@ -1,5 +1,6 @@
 // The page: what is typed and drawn becomes a scene, the scene motions, the motions files.
 
+import { readAvatar } from "../files/avatar.js";
 import { writeBvh } from "../files/bvh.js";
 import { readClip } from "../files/clip.js";
 import { recordFilm } from "../files/film.js";
@@ -536,6 +537,7 @@ class Page {
       });
     $("use-motion").addEventListener("click", () => this.takeClip(this.shown[this.choice], "this motion"));
     $("close-clip").addEventListener("click", () => this.history.change({ clip: null }));
+    $("body").addEventListener("change", () => this.chooseBody($("body").value).catch((error) => this.tell(error.message, "error")));
     for (const name of Object.keys(this.settings.skeleton.groups)) $("joints").add(new Option(name.replace("-", " "), name));
     this.showClip();
   }
@@ -543,12 +545,40 @@ class Page {
   async openClip(file) {
     try {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
-      const bytes = await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); });
-      this.takeClip(readClip(file.name, new Uint8Array(bytes), this.settings.profiles), file.name);
+      const bytes = new Uint8Array(await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); }));
+      const found = readAvatar(file.name, bytes, this.settings.profiles);
+      if (found) this.offerBody(found.avatar, file.name);
+      if (found?.alone) {
+        await this.chooseBody("avatar");
+        this.tell(`${file.name} moves now. GLB files and films show it; BVH and VRMA hold the motion alone.`);
+        return;
+      }
+      this.takeClip(readClip(file.name, bytes, this.settings.profiles), file.name);
       this.seek(0);
       this.stage?.resetView(); // it may stand elsewhere
     } catch (error) {
       this.tell(`${file.name}: ${error.message}`, "error");
+    }
+  }
+
+  /** Of the avatars that were opened the last one can be chosen. */
+  offerBody(avatar, name) {
+    this.avatar = avatar;
+    $("body").replaceChildren(new Option("mannequin", ""), new Option(name, "avatar"));
+    $("body").closest("label").hidden = false;
+    this.chooseBody("");
+  }
+
+  /** What moves on the stage, in films and in GLB files: the mannequin, or that avatar. */
+  async chooseBody(which) {
+    const body = which ? this.avatar : null;
+    try {
+      if (body !== this.worn) await this.stage?.wear(body);
+      this.worn = body;
+    } catch (error) {
+      throw new Error(`It cannot be drawn: ${error.message}`);
+    } finally {
+      $("body").value = this.worn ? "avatar" : "";
     }
   }
 
@@ -586,7 +616,8 @@ class Page {
   /** The chosen motion as a file. */
   bytes(kind) {
     const motion = this.shown[this.choice];
-    return kind === "bvh" ? new TextEncoder().encode(writeBvh(motion)) : writeGlb(motion, this.rest[kind]);
+    if (kind === "bvh") return new TextEncoder().encode(writeBvh(motion));
+    return kind === "glb" && this.worn ? this.worn.write(motion) : writeGlb(motion, this.rest[kind]);
   }
 
   save(kind) {

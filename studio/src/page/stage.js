@@ -3,10 +3,15 @@
 import {
   AmbientLight, Bone, BufferAttribute, BufferGeometry, Color, DirectionalLight, Fog,
   HemisphereLight, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Spherical, Vector2,
+  PerspectiveCamera, Plane, PlaneGeometry, Quaternion, Raycaster, RingGeometry, Scene, ShadowMaterial, Skeleton, SkinnedMesh, Spherical, TextureLoader, Vector2,
   Vector3, WebGLRenderer, PCFShadowMap, SRGBColorSpace,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { clone } from "three/addons/utils/SkeletonUtils.js";
+
+import { matrixOf } from "../body/rotations.js";
+import { INDEX, kinematics } from "../body/skeleton.js";
 
 const SPACING = 1.7; // metres between takes
 const JOINTS = 22;
@@ -80,8 +85,39 @@ export class Stage {
     this.placeAt(this.time);
   }
 
+  /** Show an avatar in place of the mannequin, or that again for null. Throws where it cannot be drawn. */
+  async wear(avatar) {
+    const worn = avatar && await drawn(avatar);
+    for (const { mesh } of this.bodies.splice(0)) this.scene.remove(mesh);
+    if (this.worn) dispose(this.worn.scene);
+    this.worn = worn;
+    if (this.motions) this.show(this.motions, this.chosen);
+  }
+
   newBody() {
-    const { geometry, parents, offsets, colours } = this.shared;
+    return this.worn ? this.newAvatar() : this.newMannequin();
+  }
+
+  newAvatar() {
+    const { avatar, scene, nodes } = this.worn, mesh = clone(scene), twins = new Map(), copies = [];
+    mesh.traverse((each) => copies.push(each));
+    let next = 0;
+    scene.traverse((each) => twins.set(each, copies[next++]));
+    this.scene.add(mesh);
+    const own = (node) => twins.get(nodes[node]);
+    return {
+      mesh,
+      chest: own(avatar.tree.order[avatar.joints.spine3 ?? avatar.joints.pelvis]),
+      place: (turns, root) => {
+        const { rotations, node, place } = avatar.posed(kinematics(turns.map(({ x, y, z, w }) => matrixOf([w, x, y, z])), root));
+        for (const [each, [w, x, y, z]] of rotations) own(each).quaternion.set(x, y, z, w);
+        own(node).position.set(...place);
+      },
+    };
+  }
+
+  newMannequin() {
+    const { geometry, parents, offsets } = this.shared;
     const bones = parents.map((_, joint) => {
       const bone = new Bone();
       bone.position.fromArray(offsets[joint]);
@@ -95,25 +131,32 @@ export class Stage {
     const inverses = this.body.skeleton.rest.map(([x, y, z]) => new Matrix4().makeTranslation(-x, -y, -z));
     mesh.bind(new Skeleton(bones, inverses), new Matrix4());
     this.scene.add(mesh);
-    return { mesh, bones, colours };
+    return {
+      mesh,
+      chest: bones[INDEX.spine3],
+      place: (turns, root) => {
+        turns.forEach((turn, joint) => bones[joint].quaternion.copy(turn));
+        bones[0].position.set(...root);
+      },
+    };
   }
 
   /** Put every body where it is at a time. */
   placeAt(time) {
     this.time = time;
     const a = new Quaternion(), b = new Quaternion();
-    this.bodies.forEach(({ mesh, bones }, i) => {
+    this.bodies.forEach(({ mesh, place }, i) => {
       const { frames, fps, quaternions, root } = this.motions[i];
       const at = Math.min(Math.max(time * fps, 0), frames - 1), first = Math.floor(at), second = Math.min(first + 1, frames - 1);
-      const share = at - first;
+      const share = at - first, turns = [];
       for (let joint = 0; joint < JOINTS; joint++) {
         const [p, q] = [(first * JOINTS + joint) * 4, (second * JOINTS + joint) * 4];
         a.set(quaternions[p + 1], quaternions[p + 2], quaternions[p + 3], quaternions[p]);
         b.set(quaternions[q + 1], quaternions[q + 2], quaternions[q + 3], quaternions[q]);
-        bones[joint].quaternion.slerpQuaternions(a, b, share);
+        turns.push(new Quaternion().slerpQuaternions(a, b, share));
       }
       const [x, y, z] = [0, 1, 2].map((k) => root[first * 3 + k] + share * (root[second * 3 + k] - root[first * 3 + k]));
-      bones[0].position.set(x, y, z);
+      place(turns, [x, y, z]);
       mesh.position.x = this.offsets[i];
       if (i === this.chosen) {
         this.ring.position.set(x + this.offsets[i], 0.006, z);
@@ -147,8 +190,8 @@ export class Stage {
   takeAt(event) {
     const box = this.canvas.getBoundingClientRect();
     let best = null, least = 0.07 * box.width;
-    this.bodies.forEach(({ bones }, i) => {
-      const place = bones[9].getWorldPosition(new Vector3()).project(this.camera);
+    this.bodies.forEach(({ chest }, i) => {
+      const place = chest.getWorldPosition(new Vector3()).project(this.camera);
       const away = Math.hypot(((place.x + 1) / 2) * box.width + box.left - event.clientX, ((1 - place.y) / 2) * box.height + box.top - event.clientY);
       if (away < least) { least = away; best = i; }
     });
@@ -216,6 +259,32 @@ export class Stage {
   }
 }
 
+/** What draws an avatar: its scene, and the nodes of its file. Pictures come through image elements, as the page lets nothing be fetched. */
+async function drawn(avatar) {
+  const loader = new GLTFLoader().register((parser) => {
+    parser.textureLoader = new TextureLoader(parser.options.manager);
+    return { name: "pictures" };
+  });
+  const { scene, parser } = await loader.parseAsync(avatar.bytes.slice().buffer, "");
+  const nodes = await parser.getDependencies("node"), there = new Set();
+  scene.traverse((each) => {
+    there.add(each);
+    if (each.isMesh) Object.assign(each, { castShadow: true, frustumCulled: false }); // it moves away from where it is bound
+  });
+  if (![...avatar.players.keys()].every((joint) => there.has(nodes[avatar.tree.order[joint]]))) throw new Error("Its skeleton is not in its scene.");
+  return { avatar, scene, nodes };
+}
+
+function dispose(scene) {
+  scene.traverse(({ geometry, material }) => {
+    geometry?.dispose();
+    for (const each of [material].flat().filter(Boolean)) {
+      Object.values(each).forEach((value) => { if (value?.isTexture) value.dispose(); });
+      each.dispose();
+    }
+  });
+}
+
 /** A square of lines, a metre apart, `reach` metres to each side; in pieces, as some renderers drop lines that pass the camera. */
 function gridOf(reach) {
   const points = [];
@@ -250,5 +319,5 @@ function meshOf({ skeleton, mesh, colours }) {
   geometry.setAttribute("skinIndex", new BufferAttribute(Uint16Array.from(joints), 4));
   geometry.setAttribute("skinWeight", new BufferAttribute(Float32Array.from(weights, (w) => w / 255), 4));
   geometry.setIndex(new BufferAttribute(array(mesh.triangles, Uint16Array), 1));
-  return { geometry, parents: skeleton.parents, offsets: skeleton.offsets, colours };
+  return { geometry, parents: skeleton.parents, offsets: skeleton.offsets };
 }
