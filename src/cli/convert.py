@@ -19,6 +19,7 @@ from .console import complain, counted, note_replaced, print_json, tell
 
 if TYPE_CHECKING:
     from ..shared.data.retarget.read_motion import Inspection
+    from ..shared.data.retarget.to_rig import Target
     from ..shared.motion.motion import Motion
 
 
@@ -41,8 +42,8 @@ def convert(
     format: Annotated[
         str | None,
         typer.Option(
-            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, vrma, npz, amass,"
-            " csv, html, png, gif, mp4."
+            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, vrm, vrma, npz,"
+            " amass, csv, html, png, gif, mp4."
         ),
     ] = None,
     fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
@@ -86,6 +87,8 @@ def convert(
     formats = list(dict.fromkeys(name for job in jobs for name, _ in job.targets))
     check_rigged(formats, names, skeleton)
     check_sources(jobs, asf, skeleton)
+    if skeleton is not None and "vrm" in formats:
+        character(skeleton, mapping).check_avatar()
     kept = {job.source for job in jobs if resume and is_done(job)}
     jobs = [job for job in jobs if job.source not in kept]
     folder = named[-1] if format else named[-1].parent
@@ -209,14 +212,14 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
     """Refuse names and skeletons for formats that know ours only."""
     from ..shared.formats.registry import CLIP_EXPORTERS
 
-    rigged = [name for name in formats if name in CLIP_EXPORTERS]
-    known = ", ".join(CLIP_EXPORTERS)
+    able = [*CLIP_EXPORTERS, "vrm"] if skeleton else [*CLIP_EXPORTERS]
+    rigged, known = set(formats) & set(able), ", ".join(able)
     if skeleton is not None:
         if names != "canonical":
             raise UsageError(
                 "--names does not go with --skeleton, which has names of its own; leave one out"
             )
-        if other := sorted(set(formats) - set(rigged)):
+        if other := sorted(set(formats) - rigged):
             raise UsageError(f"--skeleton does not go with {other[0]}; choose from {known}")
         if skeleton.suffix.lower() not in (".bvh", ".glb", ".vrm"):
             raise UsageError(
@@ -298,17 +301,22 @@ def delivered(path: Place) -> Iterator[Path]:
 
 
 @lru_cache(maxsize=1)
+def character(skeleton: Path, mapping: Path | None) -> "Target":
+    """The user's skeleton, which is read once a process."""
+    from ..shared.data.retarget.to_rig import read_target
+
+    return read_target(skeleton, mapping=mapping)
+
+
 def writer(
     skeleton: Path | None, mapping: Path | None, names: str
 ) -> "Callable[[Motion, Path], Path]":
-    """What writes a motion: on our skeleton, or on the user's, which is read once a process."""
+    """What writes a motion: on our skeleton, or on the user's."""
     from ..shared.formats.registry import write_motion
 
     if skeleton is None:
         return lambda motion, path: write_motion(motion, path, names=names)
-    from ..shared.data.retarget.to_rig import read_target
-
-    return read_target(skeleton, mapping=mapping).write
+    return character(skeleton, mapping).write
 
 
 MAX_INDENT = 24  # levels; deeper joints are shown there

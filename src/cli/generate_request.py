@@ -158,7 +158,7 @@ class Request:
         str | None,
         typer.Option(
             help="With commas between: bvh, glb, npz, html (unless given), usd, usda, usdc,"
-            " vrma, amass, csv, png, gif, mp4 for a body; npz, csv, glb, html, png for a path."
+            " vrm, vrma, amass, csv, png, gif, mp4 for a body; npz, csv, glb, html, png for a path."
         ),
     ] = None
     out: Annotated[

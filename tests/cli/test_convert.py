@@ -12,7 +12,7 @@ from typer.testing import CliRunner, Result
 from src.cli.tools import app
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.formats.readers.bvh import read_bvh
-from src.shared.formats.readers.glb import read_glb_skeleton
+from src.shared.formats.readers.glb import GlbFile, read_glb_skeleton
 from src.shared.formats.registry import write_motion
 from src.shared.io.storage import place
 from src.shared.motion.motion import Motion
@@ -77,6 +77,27 @@ def test_onto_a_users_skeleton(walk: Path, tmp_path: Path) -> None:
     assert clip.names[0] == "mixamorig:Hips"
     travel = clip.world()[0][-1, 0] - clip.world()[0][0, 0]
     np.testing.assert_allclose(travel, [0, 0, 112.5], atol=1e-3)  # longer legs, longer way
+
+
+def test_avatars_are_moved_and_nothing_else_becomes_one(walk: Path, tmp_path: Path) -> None:
+    assert run(walk, tmp_path, "--format", "vrm,glb,bvh").exit_code == 0
+    avatar, moved = tmp_path / "walk.vrm", tmp_path / "moved.vrm"
+    assert max(differences(stroll(), read_motion(avatar, fps=None))) < 1e-4
+    for other in ("walk.glb", "walk.bvh"):
+        result = run(walk, moved, "--skeleton", tmp_path / other)
+        assert result.exit_code == 2 and len(result.stderr.splitlines()) == 1
+        assert f"{other} is no VRM avatar" in result.stderr
+        assert not moved.exists()
+    folder = tmp_path / "out"
+    assert run(walk, folder, "--format", "vrm,bvh", "--skeleton", avatar).exit_code == 0
+    assert run(folder / "walk.bvh", moved, "--skeleton", avatar).exit_code == 0
+    extensions = GlbFile.read(avatar).document["extensions"]
+    for path in (folder / "walk.vrm", moved):
+        assert GlbFile.read(path).document["extensions"] == extensions
+        assert differences(stroll(), read_motion(path, fps=None))[0] < 1e-4
+    (folder / "walk.bvh").unlink()
+    assert run(folder, tmp_path / "back", "--format", "npz").exit_code == 0
+    assert differences(stroll(), read_motion(tmp_path / "back" / "walk.npz", fps=None))[0] < 1e-4
 
 
 def test_folders_keep_their_shape_and_faults_do_not_stop_the_rest(

@@ -8,8 +8,9 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from src.cli.tools import app
+from src.shared.formats.readers.glb import GlbFile
 from src.shared.formats.writers.bvh import write_bvh
-from src.shared.formats.writers.glb import write_glb
+from src.shared.formats.writers.glb import write_vrm
 from src.shared.motion.motion import Motion
 
 
@@ -55,10 +56,15 @@ def test_people_see_all_of_it(bvh: Path) -> None:
 
 def test_an_avatar_is_seen_at_rest(tmp_path: Path) -> None:
     """Where --skeleton of a .vrm that lacks a bone sends people."""
-    path = write_glb(still(), tmp_path / "me.glb").rename(tmp_path / "me.vrm")
+    file = GlbFile.read(write_vrm(still(), tmp_path / "moving.vrm"))
+    moving = json.loads(run(tmp_path / "moving.vrm", "--json").stdout)
+    assert (moving["frames"], moving["warnings"]) == (30, [])
+    del file.document["animations"]
+    path = file.write(tmp_path / "me.vrm")
     found = json.loads(run(path, "--json").stdout)
     assert (found["format"], found["unit"], found["up"]) == ("VRM", "m", "Y")
-    assert len(found["matched"]) == 22
+    assert len(found["matched"]) == 22 and found["frames"] == 1
+    assert "holds no motion" in found["warnings"][0]
 
 
 def test_programs_see_the_same(bvh: Path) -> None:

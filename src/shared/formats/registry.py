@@ -35,6 +35,7 @@ EXPORTERS: dict[str, Callable[..., Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh"),
     "glb": _lazy("writers.glb", "write_glb"),
     **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd")),
+    "vrm": _lazy("writers.glb", "write_vrm"),
     "vrma": _lazy("writers.glb", "write_vrma"),
     "npz": _lazy("arrays", "write_npz"),
     "amass": _lazy("amass", "write_amass"),

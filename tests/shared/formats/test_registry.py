@@ -19,7 +19,7 @@ from src.shared.formats.registry import (
 from src.shared.motion.motion import Motion
 
 STARTS = {"bvh": b"HIERARCHY", "glb": b"glTF", "npz": b"PK", "html": b"<!doctype html>",
-          "vrma": b"glTF", "png": b"\x89PNG", "usd": b"#usda", "usda": b"#usda",
+          "vrm": b"glTF", "vrma": b"glTF", "png": b"\x89PNG", "usd": b"#usda", "usda": b"#usda",
           "usdc": b"PXR-USDC", "amass": b"PK", "csv": b"time,pelvis_x", "gif": b"GIF89a",
           "mp4": b"\0\0\0 ftyp"}  # fmt: skip
 PACKAGES = {"usdc": "pxr", "mp4": "av"}

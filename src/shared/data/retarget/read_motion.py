@@ -31,7 +31,7 @@ from .mapping import GUESSED, SkeletonMapping, load_mappings, mapping_of
 from .to_canonical import leg_length, retarget
 
 FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".vrma", ".npy")
-ENDINGS = (*FOLDER_ENDINGS, ".csv")  # in a folder it may hold captions
+ENDINGS = (*FOLDER_ENDINGS, ".vrm", ".csv")  # in a folder most often avatars at rest, captions
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,10 +74,10 @@ def open_recording(
     ending = path.suffix.lower()
     if ending == ".bvh":
         return Recording("BVH", clip=read_bvh(path))
-    if ending in (".glb", ".vrma", ".vrm"):  # the last is an avatar, at rest
+    if ending in (".glb", ".vrma", ".vrm"):
         clip, name = read_glb(path), ending[1:].upper()
-        still = ("an avatar, which holds no motion: this is how it stands at rest",)
-        told = still if ending == ".vrm" else ()
+        still = ("an avatar, which holds no motion: this is how it stands",)
+        told = still if ending == ".vrm" and clip.num_frames == 1 else ()
         return Recording(name, clip=clip, up="Y", metres=1.0, text=clip.text, warnings=told)
     if ending == ".csv":
         return Recording("CSV of this project", motion=read_motion_csv(path))

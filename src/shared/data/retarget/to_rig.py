@@ -153,22 +153,35 @@ class Target:
             motion, self.rig, self.mapping, up=self.up, corrections=self.corrections
         )
 
+    def check_avatar(self) -> None:
+        """Raise UsageError where the file is no VRM avatar; a `.vrm` is written of those alone."""
+        if self.character is None or not self.character.is_avatar:
+            raise UsageError(
+                f"{self.path} is no VRM avatar, and a .vrm is written of avatars alone; give the"
+                " avatar's own .vrm as skeleton, or write a .glb"
+            )
+
     def write(self, motion: Motion, path: Path) -> Path:
         """Write the motion on this skeleton in the format that `path` ends with.
 
-        A GLB character is written with its own mesh; all else with the skeleton alone.
+        As GLB a character is written with its own mesh, as VRM an avatar with all that its file
+        holds; all else with the skeleton alone.
 
         Raises:
-            UsageError: no format that holds any skeleton ends so, or it is the skeleton's own file.
+            UsageError: no format that holds any skeleton ends so, it is the skeleton's own file, or
+                a `.vrm` of what is no avatar.
             UserError: the file cannot be written.
         """
         check_motion(motion, path)
         if same_place(path, self.path):
             raise UsageError(f"{path} is the skeleton's own file; name another OUT")
-        if self.character is not None and path.suffix.lower() == ".glb":
+        ending = path.suffix.lower()
+        if ending == ".vrm":
+            self.check_avatar()
+        if self.character is not None and ending in (".glb", ".vrm"):
             return write_glb_character(self.character, self.clip(motion), path)
         clip = self.clip(motion)
-        if path.suffix.lower() != ".bvh":  # all others are +Y up
+        if ending != ".bvh":  # all others are +Y up
             clip = turned(clip, upright(self.up))
         elif self.path.suffix.lower() != ".bvh":  # one in metres; who has a BVH has chosen a unit
             clip = rescaled(clip, CENTIMETRE)

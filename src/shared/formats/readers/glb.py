@@ -308,6 +308,11 @@ class GlbSkeleton:
     base: np.ndarray
     scales: np.ndarray
 
+    @property
+    def is_avatar(self) -> bool:
+        """Whether the file is a VRM avatar, of 0.x or 1.0."""
+        return not {"VRMC_vrm", "VRM"}.isdisjoint(self.file.document.get("extensions", {}))
+
 
 def read_glb_skeleton(path: str | Path) -> GlbSkeleton:
     """The skeleton of a GLB file, at rest.

@@ -33,6 +33,23 @@ from ..rig import (
 )
 
 PALETTE_SIZE = 32  # texels, right side to left side
+# Of the mannequin, which is under the Apache licence: that limits no use.
+_VRM_META = {
+    "name": "motionsuite mannequin",
+    "version": "1.0",
+    "authors": ["motionsuite"],
+    "licenseUrl": "https://vrm.dev/licenses/1.0/",
+    "otherLicenseUrl": "https://www.apache.org/licenses/LICENSE-2.0",
+    "avatarPermission": "everyone",
+    "commercialUsage": "corporation",
+    "creditNotation": "unnecessary",
+    "modification": "allowModificationRedistribution",
+    "allowRedistribution": True,
+    "allowExcessivelyViolentUsage": True,
+    "allowExcessivelySexualUsage": True,
+    "allowPoliticalOrReligiousUsage": True,
+    "allowAntisocialOrHateUsage": True,
+}
 
 
 def write_glb(motion: Motion, path: str | Path, *, names: str = "canonical") -> Path:
@@ -54,6 +71,16 @@ def write_glb_clip(clip: RigClip, path: str | Path) -> Path:
     return _file(clip, bone_mesh(clip.rig, clip.moving())).write(Path(path))
 
 
+def write_vrm(motion: Motion, path: str | Path) -> Path:
+    """Write our mannequin as a VRM 1.0 avatar, in the T-pose, with one motion as its glTF animation
+    (most programs for avatars leave that out); raises UserError as `write_glb`."""
+    file = _file(motion_clip(motion), mannequin())
+    nodes, scene = file.document["nodes"], file.document["scenes"][0]
+    scene["nodes"][0] = len(nodes)
+    nodes.append({"name": "root", "children": [0]})  # VRM's is no bone, and at the origin
+    return _vrm(file, "VRMC_vrm", meta=_VRM_META).write(Path(path))
+
+
 def write_vrma(motion: Motion, path: str | Path) -> Path:
     """Write one motion as a VRM animation: the T-pose, whose bones VRM names, and no mesh; raises
     UserError as `write_glb`."""
@@ -61,14 +88,15 @@ def write_vrma(motion: Motion, path: str | Path) -> Path:
 
 
 def _vrma(motion: Motion) -> GlbFile:
-    file = _file(motion_clip(motion))
+    return _vrm(_file(motion_clip(motion)), "VRMC_vrm_animation")
+
+
+def _vrm(file: GlbFile, name: str, **more: object) -> GlbFile:
+    """The file with an extension of VRM 1.0, which names our joints."""
     names = (name[0].lower() + name[1:] for name in SCHEMES["unity"])
     bones = {name: {"node": joint} for joint, name in enumerate(names)}
-    extension = {"specVersion": "1.0", "humanoid": {"humanBones": bones}}
-    file.document |= {
-        "extensionsUsed": ["VRMC_vrm_animation"],
-        "extensions": {"VRMC_vrm_animation": extension},
-    }
+    extension = {"specVersion": "1.0", "humanoid": {"humanBones": bones}} | more
+    file.document |= {"extensionsUsed": [name], "extensions": {name: extension}}
     return file
 
 

@@ -13,11 +13,11 @@ from src.shared.data.retarget.mapping import SkeletonMapping, load_mappings
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.data.retarget.to_canonical import retarget
 from src.shared.data.retarget.to_rig import Target, read_target, rest_clip, retarget_out
-from src.shared.errors import UserError
+from src.shared.errors import UsageError, UserError
 from src.shared.formats.readers.bvh import read_bvh
-from src.shared.formats.readers.glb import read_glb, read_glb_skeleton
+from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton
 from src.shared.formats.registry import write_clip, write_motion
-from src.shared.formats.rig import Rig, RigClip, SourceClip, canonical_rig
+from src.shared.formats.rig import SCHEMES, Rig, RigClip, SourceClip, canonical_rig
 from src.shared.formats.writers.glb import write_glb_clip
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import FOOT_JOINTS, JOINT_INDEX, JOINT_NAMES, REST_FOOT_HEIGHT
@@ -176,6 +176,42 @@ def test_a_character_keeps_its_mesh_and_gets_the_motion(tmp_path: Path) -> None:
         target.write(motion, path)
     bvh = read_bvh(target.write(motion, tmp_path / "moved.bvh"))  # in centimetres, as all of ours
     np.testing.assert_allclose(bvh.offsets[1:], 100 * target.rig.offsets[1:], atol=1e-3)
+
+
+@pytest.mark.parametrize("version", ["VRM", "VRMC_vrm"])
+def test_an_avatar_keeps_all_that_its_file_holds(version: str, tmp_path: Path) -> None:
+    file = GlbFile.read(character(tmp_path / "hero.glb"))
+    nodes = {name[0].lower() + name[1:]: node for node, name in enumerate(SCHEMES["unity"])}
+    if version == "VRM":  # of 0.x, which faces -Z
+        bones: object = [{"bone": name, "node": node} for name, node in nodes.items()]
+        turn = {"name": "back", "children": [23], "rotation": [0.0, 1.0, 0.0, 0.0]}
+        file.document["nodes"].append(turn)
+        file.document["scenes"][0]["nodes"][0] = 24
+    else:
+        bones = {name: {"node": node} for name, node in nodes.items()}
+    extension = {"meta": {"name": "Hero", "authors": ["me"]}, "humanoid": {"humanBones": bones}}
+    file.document |= {"extensionsUsed": [version], "extensions": {version: extension}}
+    path = file.write(tmp_path / "hero.vrm")
+    motion = random_motion(5, 11, 30.0)
+    out = read_target(path).write(motion, tmp_path / "moved.VRM")
+    after = GlbFile.read(out)
+    for name in ("extensions", "extensionsUsed", "meshes", "skins", "materials", "nodes", "scenes"):
+        assert after.document[name] == file.document[name]
+    for name in ("accessors", "bufferViews"):
+        kept = file.document[name]
+        assert after.document[name][: len(kept)] == kept
+    assert after.data.startswith(bytes(file.data))
+    assert len(after.document["animations"]) == 1
+    assert differences(motion, read_motion(out, fps=None))[0] <= 1e-4
+    again = read_target(out).write(motion, tmp_path / "again.vrm")
+    assert GlbFile.read(again).document["extensions"] == file.document["extensions"]
+
+
+def test_what_is_no_avatar_is_not_written_as_one(tmp_path: Path) -> None:
+    for source in (character(tmp_path / "hero.glb"), write_motion(standing(), tmp_path / "a.bvh")):
+        with pytest.raises(UsageError, match=rf"{source.name} is no VRM avatar.*write a \.glb"):
+            read_target(source).write(standing(), tmp_path / "moved.vrm")
+    assert not (tmp_path / "moved.vrm").exists()
 
 
 def test_a_bvh_skeleton_keeps_names_offsets_orders_and_unit(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
 from src.shared.formats.mannequin import mannequin, whole_shares
 from src.shared.formats.rig import continuous
-from src.shared.formats.writers.glb import write_glb, write_vrma
+from src.shared.formats.writers.glb import write_glb, write_vrm, write_vrma
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_NAMES
 from tests.shared.formats.glb_reader import Glb
@@ -71,6 +71,36 @@ def test_a_vrm_animation_names_bones_and_moves_them_as_the_motion_does(tmp_path:
     assert glb.json["nodes"][0]["translation"][1] > 0.9  # by which players scale its path
     again = read_motion(tmp_path / "a.vrma")
     np.testing.assert_allclose(again.positions(), motion.positions(), atol=1e-4)
+
+
+def test_a_vrm_avatar_holds_what_vrm_asks_for_and_moves_as_the_motion_does(tmp_path: Path) -> None:
+    motion = a_motion()
+    glb = Glb(write_vrm(motion, tmp_path / "a.vrm"))
+    assert glb.json["extensionsUsed"] == list(glb.json["extensions"]) == ["VRMC_vrm"]
+    avatar = glb.json["extensions"]["VRMC_vrm"]
+    assert avatar["specVersion"] == "1.0"
+    assert avatar["meta"]["licenseUrl"] == "https://vrm.dev/licenses/1.0/"
+    assert avatar["meta"]["name"] and all(avatar["meta"]["authors"])
+    nodes = glb.json["nodes"]
+    above = {child: n for n, node in enumerate(nodes) for child in node.get("children", [])}
+    bones = {name: bone["node"] for name, bone in avatar["humanoid"]["humanBones"].items()}
+    assert len(bones) == len(set(bones.values())) == 22
+    limbs = {"Hand": "LowerArm", "LowerArm": "UpperArm", "UpperArm": "Shoulder",
+             "Foot": "LowerLeg", "LowerLeg": "UpperLeg"}  # fmt: skip
+    parents = {"spine": "hips", "chest": "spine", "upperChest": "chest", "neck": "upperChest",
+               "head": "neck", "leftUpperLeg": "hips", "rightUpperLeg": "hips"}  # fmt: skip
+    parents |= {side + a: side + b for side in ("left", "right") for a, b in limbs.items()}
+    assert all(above[bones[bone]] == bones[parent] for bone, parent in parents.items())
+    root = above[bones["hips"]]
+    assert root in glb.json["scenes"][0]["nodes"] and set(nodes[root]) == {"name", "children"}
+    assert not any({"rotation", "scale", "matrix"} & set(node) for node in nodes)
+    np.testing.assert_allclose(glb.world(12)[0][:22], motion.positions()[12], atol=1e-4)
+    same = Glb(write_glb(motion, tmp_path / "a.glb"))
+    assert [glb.json[k] for k in ("meshes", "skins")] == [same.json[k] for k in ("meshes", "skins")]
+    again = read_motion(tmp_path / "a.vrm")
+    np.testing.assert_allclose(again.positions(), motion.positions(), atol=1e-4)
+    np.testing.assert_allclose(again.global_rotations(), motion.global_rotations(), atol=1e-4)
+    assert again.text == motion.text
 
 
 def test_the_skin_binds_the_mesh_where_it_stands(glb: Glb) -> None:
