@@ -33,7 +33,7 @@ from ..rig import (
 )
 
 PALETTE_SIZE = 32  # texels, right side to left side
-# Of the mannequin, which is under the Apache licence: that limits no use.
+# Of the mannequin, which is under the Apache licence.
 _VRM_META = {
     "name": "motionsuite mannequin",
     "version": "1.0",
@@ -45,10 +45,6 @@ _VRM_META = {
     "creditNotation": "unnecessary",
     "modification": "allowModificationRedistribution",
     "allowRedistribution": True,
-    "allowExcessivelyViolentUsage": True,
-    "allowExcessivelySexualUsage": True,
-    "allowPoliticalOrReligiousUsage": True,
-    "allowAntisocialOrHateUsage": True,
 }
 
 
