@@ -9,8 +9,8 @@ import torch
 from torch import nn
 
 from src.shared.config_audio import AudioNetworkConfig, FinetuneE2eConfig
+from src.shared.model.audio import CONDITION_ROWS
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import CONDITION_ROWS
 from src.shared.motion.trajectory import CHANNELS
 from src.train.finetune_e2e import E2eBatch, E2eObjective
 from src.train.task import to_device

@@ -32,8 +32,8 @@ from benchmarks.literal_unet import LiteralDDIMSampler, LiteralUNet, literal_twi
 from benchmarks.turns import as_rows, in_turns, ratio
 from src.shared.config_audio import AudioNetworkConfig
 from src.shared.config_loader import load_audio_network
+from src.shared.model.audio import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.unet import UNet1D, sampling_copy
 from src.shared.model.diffusion import DDIMSampler, ModelFn
 from src.shared.motion.postprocess.trajectory import MotionPostProcessor

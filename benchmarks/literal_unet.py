@@ -22,7 +22,7 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
-from src.shared.model.audio.conditioning import FEATURE_ROWS
+from src.shared.model.audio import FEATURE_ROWS
 from src.shared.model.audio.unet import AttentionBlock, Downsample, ResBlock, UNet1D, Upsample
 from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.model.layers.transformer import sinusoidal

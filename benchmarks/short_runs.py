@@ -24,8 +24,8 @@ from src.shared.evaluation.samples import Clips, real_clips
 from src.shared.evaluation.stats import Estimate, bootstrap_mean, paired_bootstrap
 from src.shared.metrics.physical import mean_jerk
 from src.shared.metrics.retrieval import guo_retrieval
+from src.shared.model.audio import with_phase_rows
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
-from src.shared.model.audio.conditioning import with_phase_rows
 from src.shared.model.evaluator import Evaluator, evaluator_folder
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.motion.motion import Motion

@@ -15,7 +15,7 @@ from torch import Tensor, nn
 
 from ..shared.config_audio import AudioNetworkConfig
 from ..shared.config_schema import ClipConfig, NetworkConfig
-from ..shared.model.audio.conditioning import CONDITION_ROWS
+from ..shared.model.audio import CONDITION_ROWS
 from ..shared.model.audio.decoder import create_motion_decoder
 from ..shared.model.audio.unet import UNet1D
 from ..shared.model.clip.core import MotionClip

@@ -24,10 +24,9 @@ from ..shared.data.prepared import SYNTHETIC
 from ..shared.errors import UsageError
 from ..shared.formats.registry import write_trajectory
 from ..shared.io.files import sole_writer
+from ..shared.model.audio import BEAT, CONDITION_ROWS, MIN_FRAMES
 from ..shared.model.audio.audio_motion_model import KIND, AudioMotionModel
-from ..shared.model.audio.conditioning import BEAT, CONDITION_ROWS
 from ..shared.model.audio.decoder import wrapped_phase
-from ..shared.model.audio.unet import MIN_FRAMES
 from ..shared.model.checkpoint import read_card, resolve_model, wrong_kind
 from ..shared.motion.trajectory import PHASE, MotionTrajectory
 from ..shared.pipelines.song_sampler import SongSampler

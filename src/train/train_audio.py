@@ -21,12 +21,9 @@ from ..shared.config_audio import AudioNetworkConfig, TrainAudioConfig
 from ..shared.data.phrases.dataset import PhraseBatch, motion_statistics
 from ..shared.device import autocast, choose_compute
 from ..shared.errors import UsageError
+from ..shared.model.audio import with_phase_rows
 from ..shared.model.audio.audio_motion_model import AudioMotionModel
-from ..shared.model.audio.conditioning import (
-    ConditionAugmentation,
-    MemoryCondition,
-    with_phase_rows,
-)
+from ..shared.model.audio.conditioning import ConditionAugmentation, MemoryCondition
 from ..shared.model.diffusion import GaussianDiffusion, masked_loss
 from ..shared.motion.trajectory import FPS, POSITION, QUATERNION, STYLE
 from .audio_stages import PhraseTask, open_held_back, open_phrases, save_noted

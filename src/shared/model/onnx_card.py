@@ -5,6 +5,7 @@ their initializers are external data in model.safetensors, int8 and float16 ones
 that make float32 of them, which onnxruntime folds away on loading. docs/onnx.md is the contract.
 """
 
+import logging
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Literal, TypeVar
@@ -14,14 +15,16 @@ from pydantic import ValidationError
 from ..config_audio import AudioNetworkConfig
 from ..config_schema import Config, DiffusionConfig, PostProcessingConfig
 from ..device import computes_on_cpu
+from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError, first_fault
 from ..io.files import load_json, sha256_file
 from .checkpoint import WEIGHTS_FILE, ModelCard, read_card, resolve_model
 
+log = logging.getLogger(__name__)
 ONNX_CARD = "onnx.json"
 OPSET = 18
 READY, TURNED = "ready-", "/turned"  # before the name of a graph that is, behind that of a weight
-AUDIO_GRAPHS = ("condition.onnx", "unet.onnx", "decoder.onnx")
+AUDIO_GRAPHS = ("condition.onnx", "time.onnx", "unet.onnx", "decoder.onnx")
 TEXT_KIND, AUDIO_KIND = EXPORTED = "motion-generator", "audio-motion"  # models it is made of
 
 
@@ -135,7 +138,7 @@ class AudioOnnxCard(OnnxCard):
         null_condition: the 167 rows of "no audio", the same in every frame (ruling 14).
     """
 
-    format_version: Literal[3] = 3  # 2 asked for the condition at every step
+    format_version: Literal[4] = 4  # 3 asked for the time in every window
     kind: Literal["audio-motion"] = "audio-motion"
     audio_network: AudioNetworkConfig
     mean: tuple[float, ...]
@@ -198,3 +201,20 @@ def chosen_runtime(runtime: str, model: str | Path, device: str = "auto") -> str
         return "onnx" if (resolve_model(model) / ONNX_CARD).is_file() else "torch"
     except UserError:
         return "torch"  # which says what is wrong with the name
+
+
+def chosen_for_songs(model: str | Path, device: str = "auto", *, quiet: bool = False) -> str:
+    """What makes the paths of songs where nobody says: onnx needs an export that fits, of this
+    kind; one that does not fit is told of."""
+    if variable(DECODER_CHECKPOINT) or chosen_runtime("auto", model, device) == "torch":
+        return "torch"
+    folder = resolve_model(model)
+    if read_card(folder).kind != AUDIO_KIND:
+        return "torch"  # which says so
+    try:
+        read_onnx_card(folder, AudioOnnxCard)
+    except UserError as error:
+        if not quiet:
+            log.warning("%s; PyTorch samples until then", error)
+        return "torch"
+    return "onnx"

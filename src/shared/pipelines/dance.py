@@ -21,7 +21,7 @@ import torch
 from torch import Tensor
 
 from ..errors import UserError
-from ..model.audio.conditioning import ENERGY
+from ..model.audio import ENERGY
 from ..model.audio.shared_space import SharedSpace
 from ..model.clip.pretrained import tower_hash
 from ..model.generation.constraint import Constraint, tag_index

@@ -4,33 +4,34 @@ Letters: B samples, T frames.
 """
 
 import logging
+from functools import lru_cache
 from pathlib import Path
-from typing import Any, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
-import torch
-from torch import Tensor
-from torch.nn import functional as F
+import numpy as np
 
 from ..config_audio import AudioNetworkConfig
 from ..device import choose_compute, sampling_threads
 from ..environment import DECODER_CHECKPOINT, variable
 from ..errors import UserError
-from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
-from ..model.audio.conditioning import MemoryCondition, with_phase_rows
-from ..model.audio.decoder import Decoded
-from ..model.audio.unet import sampling_copy
-from ..model.checkpoint import read_card, resolve_model
+from ..model.audio import Decoded, with_phase_rows
+from ..model.checkpoint import resolve_model
 from ..model.diffusion import GaussianDiffusion, ModelFn, guided
 from ..model.onnx_card import (
     AUDIO_GRAPHS,
-    AUDIO_KIND,
     AudioOnnxCard,
-    chosen_runtime,
+    chosen_for_songs,
     read_onnx_card,
 )
 from ..model.onnx_graphs import open_graph, run
+from ..tensors import F, Tensor, torch
+
+if TYPE_CHECKING:
+    from ..model.audio.audio_motion_model import AudioMotionModel
+    from ..model.audio.conditioning import MemoryCondition
 
 log = logging.getLogger(__name__)
+STEPS = 50  # of which is kept what a network makes of them; some 30 kB each
 
 
 class Runtime(Protocol):
@@ -50,7 +51,7 @@ class Runtime(Protocol):
         self,
         condition: Tensor,
         guidance_scale: float | None = None,
-        memory: MemoryCondition | None = None,
+        memory: "MemoryCondition | None" = None,
     ) -> ModelFn:
         """A denoiser `f(x_t, t)` for a condition [B, 163 or 167, T] and what is remembered for it.
 
@@ -74,7 +75,7 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
         UserError: no such model, damaged, never trained, or a package is missing.
     """
     if name == "auto":
-        name = _chosen(model, device)
+        name = chosen_for_songs(model, device)
     if name == "torch":
         return load_trained(model, device)
     loaded = OnnxRuntime.from_folder(model)
@@ -82,22 +83,7 @@ def load_runtime(name: str, model: str | Path, device: str = "auto") -> Runtime:
     return loaded
 
 
-def _chosen(model: str | Path, device: str) -> str:
-    """What samples where nobody says: onnx needs an export that fits, of this kind."""
-    if variable(DECODER_CHECKPOINT) or chosen_runtime("auto", model, device) == "torch":
-        return "torch"
-    folder = resolve_model(model)
-    if read_card(folder).kind != AUDIO_KIND:
-        return "torch"  # which says so
-    try:
-        read_onnx_card(folder, AudioOnnxCard)
-    except UserError as error:
-        log.warning("%s; PyTorch samples until then", error)
-        return "torch"
-    return "onnx"
-
-
-def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
+def load_trained(model: str | Path, device: str = "auto") -> "AudioMotionModel":
     """A trained model for sampling; on a CPU its UNet is the faster copy, which learns no more.
 
     MOTIONGEN_DECODER_CHECKPOINT names a folder whose decoder takes the place of its own.
@@ -109,6 +95,9 @@ def load_trained(model: str | Path, device: str = "auto") -> AudioMotionModel:
     Raises:
         UserError: no such model, another kind, damaged, or never trained.
     """
+    from ..model.audio.audio_motion_model import AudioMotionModel, load_decoder
+    from ..model.audio.unet import sampling_copy
+
     compute = choose_compute(device)
     loaded = AudioMotionModel.from_pretrained(model, device=compute.device)
     _require_training(loaded.card.trained, model)
@@ -129,17 +118,28 @@ class OnnxRuntime:
 
     Args:
         card: of the export.
-        condition, unet, decoder: its sessions; anything with onnxruntime's `run` and `get_outputs`.
+        condition, time, unet, decoder: its sessions; anything with onnxruntime's `run` and
+            `get_outputs`.
     """
 
-    def __init__(self, card: AudioOnnxCard, condition: Any, unet: Any, decoder: Any) -> None:
+    def __init__(
+        self, card: AudioOnnxCard, condition: Any, time: Any, unet: Any, decoder: Any
+    ) -> None:
         self.card = card
         self.config = card.audio_network
         self.diffusion = GaussianDiffusion(self.config.diffusion)
         self.mean, self.std = torch.tensor(card.mean), torch.tensor(card.std)
         self._null = torch.tensor(card.null_condition)
-        self._condition, self._unet, self._decoder = condition, unet, decoder
+        self._condition, self._time, self._unet = condition, time, unet
+        self._decoder = decoder
         self._prepared = [value.name for value in condition.get_outputs()]
+        times = [value.name for value in time.get_outputs()]
+
+        @lru_cache(STEPS)
+        def made(*steps: int) -> dict[str, Tensor]:
+            return dict(zip(times, run(time, t=np.array(steps)), strict=True))
+
+        self._made = made  # of the time, which is the same for each window
 
     @classmethod
     def from_folder(cls, folder: str | Path) -> Self:
@@ -161,7 +161,7 @@ class OnnxRuntime:
         self,
         condition: Tensor,
         guidance_scale: float | None = None,
-        memory: MemoryCondition | None = None,
+        memory: "MemoryCondition | None" = None,
     ) -> ModelFn:
         """See `Runtime`; an export hears no memory."""
         assert memory is None, "an export hears no memory"
@@ -174,7 +174,7 @@ class OnnxRuntime:
 
     def decode(self, z: Tensor, start: Tensor | None = None) -> Decoded:
         """See `Runtime`."""
-        rows = (z * self.std[:, None] + self.mean[:, None]).transpose(1, 2)  # [B, T, 25]
+        rows = (z * self.std[:, None] + self.mean[:, None]).swapaxes(1, 2)  # [B, T, 25]
         if start is None:
             start = torch.full((len(z),), torch.nan)
         trajectory, phase = run(self._decoder, rows=rows, start=start)
@@ -187,5 +187,5 @@ class OnnxRuntime:
     def _predict(self, x: Tensor, t: Tensor, **prepared: Tensor) -> Tensor:
         frames = x.shape[-1]
         padded = F.pad(x, (0, -frames % self.config.unet.factors[-1]), mode="replicate")
-        (prediction,) = run(self._unet, x=padded, t=t, **prepared)
+        (prediction,) = run(self._unet, x=padded, **self._made(*t.tolist()), **prepared)
         return prediction[..., :frames]

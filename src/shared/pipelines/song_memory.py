@@ -24,7 +24,8 @@ from ..io.storage import Place
 from ..memory.index import MemoryIndex
 from ..memory.query import Memory
 from ..memory.service import MPMService
-from ..model.audio.conditioning import BEAT, MemoryCondition, with_phase_rows
+from ..model.audio import BEAT, with_phase_rows
+from ..model.audio.conditioning import MemoryCondition
 from ..model.audio.shared_space import SharedSpace
 from ..motion.trajectory import unwrap_phase
 from .song_sampler import Recall, SongSampler

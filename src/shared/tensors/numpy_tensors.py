@@ -18,7 +18,7 @@ import numpy as np
 bool = np.bool_
 int32, int64, long, uint8 = np.int32, np.int64, np.int64, np.uint8
 float32, float64 = np.float32, np.float64
-inf, pi = math.inf, math.pi
+inf, nan, pi = math.inf, math.nan, math.pi
 
 Generator = type("Generator", (), {})  # nobody makes one: noise here is counted, not drawn
 

@@ -24,7 +24,7 @@ from ...data.phrases.layout import PhraseRecord
 from ...data.retarget.read_motion import FOLDER_ENDINGS, read_motion
 from ...errors import UserError
 from ...metrics.rhythm import beats_of_phase
-from ...model.audio.conditioning import BEAT, CONDITION_ROWS
+from ...model.audio import BEAT, CONDITION_ROWS
 from ...motion.features import decode_features
 from ...motion.motion import Motion, resample_motion
 from ...motion.trajectory import FPS, MotionTrajectory, place_window

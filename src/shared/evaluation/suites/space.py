@@ -19,7 +19,7 @@ from ...data.phrases.dataset import MotionPhraseDataset
 from ...data.phrases.layout import PhraseRecord
 from ...memory.build import cut_at_bars
 from ...metrics.retrieval import BATCH, Ranks, batches, best_ranks
-from ...model.audio.conditioning import BEAT, with_phase_rows
+from ...model.audio import BEAT, with_phase_rows
 from ...model.audio.shared_space import SharedSpace
 from ...model.clip.core import TextTower
 from ...model.clip.tokenizer import PromptTokenizer

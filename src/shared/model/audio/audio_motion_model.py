@@ -23,8 +23,9 @@ from ..checkpoint import (
     wrong_kind,
 )
 from ..diffusion import GaussianDiffusion, ModelFn, guided
+from . import Decoded
 from .conditioning import ConditionAugmentation, MemoryCondition
-from .decoder import Decoded, Decoder, create_motion_decoder
+from .decoder import Decoder, create_motion_decoder
 from .unet import Prepared, UNet1D
 
 KIND = "audio-motion"

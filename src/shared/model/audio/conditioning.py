@@ -1,9 +1,5 @@
 """What UNet1D is conditioned on: sound features, and phrases of a memory (REF, rulings 2, 26).
 
-Rows of a condition [B, 163, T]: mel 0:128, chroma 128:140, mfcc 140:160, rms, spectral centroid,
-onset strength. Four more make [B, 167, T]: cosine and sine of the beat phase, then of the bar
-phase, zero where no beat is known.
-
 Of a memory the blended context is added to the time embedding, the encoded priors to the audio's
 FiLM condition and cross-attention context. Every join starts at zero and is multiplied by the
 memory's confidence: without a memory, or with one of confidence 0, the network is what it was.
@@ -23,30 +19,18 @@ from torch.nn import functional as F
 
 from ...config_audio import AudioConditionConfig, AugmentationConfig, MemoryConditionConfig
 from ..layers.transformer import TemporalLayer, zeroed
-
-MEL, CHROMA, MFCC = slice(0, 128), slice(128, 140), slice(140, 160)
-ENERGY, BEAT = slice(160, 163), slice(163, 167)
-GROUPS = {"mel": MEL, "chroma": CHROMA, "mfcc": MFCC, "energy": ENERGY, "beat": BEAT}
-FEATURE_ROWS, CONDITION_ROWS = 163, 167
-
-
-def width(rows: slice) -> int:
-    """Number of rows of a feature group."""
-    return int(rows.stop - rows.start)
-
-
-def with_phase_rows(condition: Tensor) -> Tensor:
-    """[B, 163 or 167, T] -> [B, 167, T]; phases left out are unknown, which is zero.
-
-    Raises:
-        ValueError: another number of rows.
-    """
-    rows = condition.shape[1]
-    if rows not in (FEATURE_ROWS, CONDITION_ROWS):
-        raise ValueError(
-            f"an audio condition has {FEATURE_ROWS} or {CONDITION_ROWS} rows, not {rows}"
-        )
-    return F.pad(condition, (0, 0, 0, CONDITION_ROWS - rows))
+from . import (
+    BEAT,
+    CHROMA,
+    CONDITION_ROWS,
+    ENERGY,
+    FEATURE_ROWS,
+    GROUPS,
+    MEL,
+    MFCC,
+    width,
+    with_phase_rows,
+)
 
 
 class AudioConditioner(nn.Module):

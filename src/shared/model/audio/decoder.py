@@ -13,7 +13,6 @@ Letters: B batch, T frames, D hidden dim; trajectories [B, T, 25] in raw units.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 
 import torch
@@ -31,19 +30,12 @@ from ...motion.trajectory import (
     STYLE,
     VELOCITY,
 )
+from . import Decoded
 
 # About one over the spread of each column: bars a frame are near 1/60, accelerations near 10.
 INPUT_SCALE = (*(1.0,) * 6, *(0.1,) * 3, *(1.0,) * 4, *(0.5,) * 3, 50.0, *(3.0,) * 8)
 GAPS = 9  # further inputs of the residual decoder, see `gaps`
 PHASE_SHARPNESS = 1000.0  # of the softplus, in frames a bar: the identity from 0.004 bars up
-
-
-@dataclass(frozen=True)
-class Decoded:
-    """A trajectory [B, T, 25], and its phase in bars before it is taken modulo 1, [B, T]."""
-
-    trajectory: Tensor
-    phase_unwrapped: Tensor
 
 
 class ResidualBlock(nn.Module):

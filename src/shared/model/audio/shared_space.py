@@ -34,7 +34,7 @@ from ..clip.core import TextTower
 from ..clip.pretrained import ClipBundle, encode_captions, tower_hash
 from ..clip.tokenizer import PromptTokenizer
 from ..layers.temporal_unet import TemporalUNet
-from .conditioning import BEAT, CONDITION_ROWS, FEATURE_ROWS, with_phase_rows
+from . import BEAT, CONDITION_ROWS, FEATURE_ROWS, with_phase_rows
 
 HARMONICS = (1, 2)  # of the octave that a beat's rate lies in
 RATE_ROWS = 1 + 2 * len(HARMONICS)

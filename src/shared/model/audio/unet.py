@@ -17,16 +17,8 @@ from torch.utils.checkpoint import checkpoint
 
 from ...config_audio import NORM_GROUPS, AudioConditionConfig, MemoryConditionConfig, UNetConfig
 from ..layers.transformer import KeyValue, RotaryEmbedding, attend, sinusoidal, zeroed
-from .conditioning import (
-    CONDITION_ROWS,
-    AudioConditioner,
-    MemoryCondition,
-    MemoryJoin,
-    Remembered,
-    with_phase_rows,
-)
-
-MIN_FRAMES = 8  # ruling 4
+from . import CONDITION_ROWS, MIN_FRAMES, with_phase_rows
+from .conditioning import AudioConditioner, MemoryCondition, MemoryJoin, Remembered
 
 
 class ZeroConv1d(nn.Conv1d):
@@ -456,17 +448,22 @@ class UNet1D(nn.Module):
             condition = self.prepare(condition, drop, memory)
         else:
             assert drop is None and memory is None, "a prepared condition cannot change any more"
-        stages, depth = condition.stages, len(self.down)
+        stages = condition.stages
         time_emb = self.time_embed(sinusoidal(t, self.config.time_embed_dim))  # [B, E]
         if condition.time is not None:
             time_emb = time_emb + condition.time
-        h = self.input_conv(self._pad(x))  # [B, C, T']
+        padded = self._pad(x)  # [B, 25, T']
         film = stages[0].film[0]
-        if film is not None and film.shape[-1] != h.shape[-1]:
+        if film is not None and film.shape[-1] != padded.shape[-1]:
             raise ValueError(
-                f"the condition has {film.shape[-1]} frames (padded), the motion {h.shape[-1]}"
+                f"the condition has {film.shape[-1]} frames (padded), the motion {padded.shape[-1]}"
             )
-        skips = []
+        return self.through(padded, time_emb, stages)[..., :frames]  # [B, 25, T]
+
+    def through(self, x: Tensor, time_emb: Tensor, stages: Sequence[StageCondition]) -> Tensor:
+        """x [B, 25, T'], time [B, E] and what `prepare` made of each stage -> [B, 25, T']."""
+        skips, depth = [], len(self.down)
+        h = self.input_conv(x)  # [B, C, T']
         for stage, halve, own in zip(self.down, self.downsample, stages[:depth], strict=True):
             h = self._run(stage, h, time_emb, own)  # [B, C_i, T/2^i]
             skips.append(h)
@@ -477,7 +474,7 @@ class UNet1D(nn.Module):
             h = torch.cat((h, skips[level]), dim=1)  # [B, 2 C_i, T/2^i]
             h = self._run(self.up[level], h, time_emb, own)
         h = F.silu(self.output_norm(h))  # [B, C, T']
-        result: Tensor = self.output_conv(h)[..., :frames]  # [B, 25, T]
+        result: Tensor = self.output_conv(h)
         return result
 
     def _run(self, stage: nn.Module, h: Tensor, time: Tensor, condition: StageCondition) -> Tensor:

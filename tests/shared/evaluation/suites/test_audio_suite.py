@@ -11,7 +11,7 @@ from src.shared.audio.synthetic import SongSpec, render_song
 from src.shared.evaluation.pages import save_report
 from src.shared.evaluation.suites.audio import AudioContext, AudioSettings, evaluate_audio
 from src.shared.evaluation.tables import Grid, grids, markdown, tables
-from src.shared.model.audio.conditioning import BEAT
+from src.shared.model.audio import BEAT
 from src.shared.motion.trajectory import PHASE, MotionTrajectory
 from src.shared.pipelines.song import SongGenerator
 from tests.shared.evaluation.tiny_pairs import nod, tiny_model, write_pairs

@@ -4,14 +4,8 @@ import pytest
 import torch
 
 from src.shared.config_audio import AugmentationConfig
-from src.shared.model.audio.conditioning import (
-    BEAT,
-    FEATURE_ROWS,
-    GROUPS,
-    AudioConditioner,
-    ConditionAugmentation,
-    with_phase_rows,
-)
+from src.shared.model.audio import BEAT, FEATURE_ROWS, GROUPS, with_phase_rows
+from src.shared.model.audio.conditioning import AudioConditioner, ConditionAugmentation
 from src.shared.model.audio.unet import FiLMLayer
 from tests.shared.model.audio.tiny_audio import CONDITION, awake
 

@@ -14,7 +14,7 @@ from torch import Tensor
 from src.shared.config_audio import MemoryConditionConfig
 from src.shared.model.audio.audio_motion_model import AudioMotionModel
 from src.shared.model.audio.conditioning import ContextTransformer, MemoryCondition, MPMSConditioner
-from src.shared.model.audio.onnx import symbolic_unet as symbolic
+from src.shared.model.audio.onnx import ConditionGraph, StepGraph, TimeGraph
 from src.shared.model.audio.unet import UNet1D, sampling_copy
 from tests.shared.model.audio.tiny_audio import awake, network_config, unet, unet_config
 
@@ -203,10 +203,12 @@ def test_the_sampling_copy_remembers_too() -> None:
 
 
 def test_exported_graphs_leave_the_memory_out() -> None:
-    model, (x, t, condition) = with_memory(unet()), inputs()
-    twin = symbolic(model)
-    assert twin.memory is None and model.memory is not None
-    torch.testing.assert_close(twin(x, t, condition), model(x, t, condition))
+    model, (x, t, condition) = with_memory(unet()), inputs(24)
+    heard = ConditionGraph(model)
+    assert heard.unet.memory is None and model.memory is not None
+    given = TimeGraph(model).named(t) | heard.named(condition)
+    found = StepGraph(model, list(given))(x, *given.values())
+    torch.testing.assert_close(found, model(x, t, condition), rtol=1e-4, atol=1e-5)
 
 
 def test_guidance_leads_away_from_no_audio_and_no_memory() -> None:

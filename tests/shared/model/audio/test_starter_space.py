@@ -7,7 +7,7 @@ import torch
 from torch import Tensor
 
 from src.shared.data.synthetic.clips import generate_clip, spec_for
-from src.shared.model.audio.conditioning import CONDITION_ROWS, FEATURE_ROWS
+from src.shared.model.audio import CONDITION_ROWS, FEATURE_ROWS
 from src.shared.model.audio.shared_space import KIND, SharedSpace
 from src.shared.model.checkpoint import PRETRAINED, WEIGHTS_FILE, list_models
 from src.shared.model.generation.motion_generator import TextToMotion
