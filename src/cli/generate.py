@@ -234,10 +234,15 @@ def song_path(request: Request, audio: Path) -> dict[str, Any]:
         raise UsageError('--follow-path is about a body: add --prompt "a person dances", or --body')
     files.check_path_formats(request.format or "")
     from ..shared.formats.registry import TRAJECTORY_EXPORTERS
-    from ..shared.pipelines.song import BEATLESS
+    from ..shared.motion.trajectory import FPS
+    from ..shared.pipelines.song import BEATLESS, frames_of
 
     formats = files.checked_formats(request.format or "npz,glb,html", TRAJECTORY_EXPORTERS)
     generator, song, clock, style = listen(request, audio, bodies=False)
+    if "html" in formats:
+        from ..shared.formats.preview.html import begin_song_uri
+
+        begin_song_uri(audio, frames_of(song, request.seconds) / FPS)
     made = generator.trajectory(
         song,
         seconds=request.seconds,

@@ -264,11 +264,16 @@ class Request:
 
     @cached_property
     def light(self) -> bool:
-        """Whether onnxruntime does all that is asked; songs and judges are PyTorch's."""
-        from ..shared.model.onnx_card import chosen_runtime
+        """Whether onnxruntime does all that is asked; dances, styles and judges are PyTorch's."""
+        from ..shared.model.onnx_card import chosen_for_songs, chosen_runtime
 
-        if self.audio or self.num_samples > 1:
+        if self.num_samples > 1 or self.memory or self.style:
             return False
+        if self.audio:
+            chosen = self.runtime
+            if chosen in (None, "auto"):
+                chosen = chosen_for_songs(self.audio_model, self.device, quiet=True)
+            return self.path_alone and chosen == "onnx"
         return chosen_runtime(self.runtime or "auto", self.text_model, self.device) == "onnx"
 
     def body_formats(self) -> list[str]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..tensors import Tensor, torch
+from ..tensors import F, Tensor, torch
 from .features import FORWARD, HEIGHT, LATERAL, YAW_RATE
 from .motion import Motion
 from .rotations import (
@@ -345,5 +345,5 @@ def _blend(first: Tensor, second: Tensor) -> Tensor:
     blended = torch.lerp(first, second, weight)
     blended[:, QUATERNION] = quaternion_slerp(first[:, QUATERNION], second[:, QUATERNION], weight)
     blended[-1, PHASE_STEP] = second[-1, PHASE_STEP]
-    blended[:, STYLE] = torch.nn.functional.normalize(blended[:, STYLE], dim=-1)
+    blended[:, STYLE] = F.normalize(blended[:, STYLE], dim=-1)
     return blended

@@ -142,16 +142,16 @@ class MotionGenerator:
     @cached_property
     def audio(self) -> SongGenerator[Any]:
         """The audio model, with its memory."""
-        from ..memory.figures import is_figure_memory
         from .song import SongGenerator
 
         model = default_audio_model() if self._audio is None else self._audio
         if not isinstance(model, SongGenerator):
             memory = None
-            if self._memory is not None and not is_figure_memory(self._memory):
+            if self._memory is not None:
+                from ..memory.figures import is_figure_memory
                 from .song_memory import SongMemory
 
-                memory = SongMemory.open(self._memory)
+                memory = None if is_figure_memory(self._memory) else SongMemory.open(self._memory)
             model = SongGenerator.from_pretrained(
                 model, device=self._device, runtime=self._runtime, memory=memory
             )

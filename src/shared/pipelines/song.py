@@ -12,8 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 import numpy as np
-import torch
-from torch import Tensor
 
 from ..audio.features import is_noise, noise_spans, silent_spans
 from ..audio.song import Song, analyse
@@ -22,14 +20,13 @@ from ..data.phrases.layout import phase_rows
 from ..device import choose_device
 from ..errors import UsageError, UserError
 from ..metrics.sanity import Bands
-from ..model.audio.audio_motion_model import AudioMotionModel
-from ..model.audio.conditioning import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
+from ..model.audio import BEAT, CHROMA, CONDITION_ROWS, ENERGY, FEATURE_ROWS
 from ..model.checkpoint import resolve_model
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.postprocess.trajectory import MotionPostProcessor
 from ..motion.style import named_style, only_style_words
 from ..motion.trajectory import FPS, NEUTRAL_STYLE, MotionTrajectory, unwrap_phase
-from .body import beats_beyond
+from ..tensors import Tensor, nn, torch
 from .path import DrawnPath, TimedPath, time_path
 from .ranking import AudioJudge, ScoreTable, unranked
 from .runtime import Runtime, load_runtime
@@ -132,8 +129,9 @@ class SongGenerator(Generic[ModelT]):
             from .song_memory import require_memory
 
             require_memory(model.config, "this model")
-        if isinstance(model, AudioMotionModel):
-            model.to(choose_device(device or "auto")[0]).eval()
+        network: Any = model
+        if isinstance(network, nn.Module):
+            network.to(choose_device(device or "auto")[0]).eval()
         self.model, self.bands, self.memory = model, bands, memory
         self.post_processing: PostProcessConfig = model.config.post_processing
         self.device = model.mean.device
@@ -170,7 +168,7 @@ class SongGenerator(Generic[ModelT]):
     @property
     def runtime(self) -> str:
         """What computes: torch or onnx."""
-        return "torch" if isinstance(self.model, AudioMotionModel) else "onnx"
+        return "torch" if isinstance(self.model, nn.Module) else "onnx"
 
     def sample(
         self,
@@ -218,7 +216,7 @@ class SongGenerator(Generic[ModelT]):
 
     def generate(
         self,
-        audio_features: np.ndarray | torch.Tensor,
+        audio_features: np.ndarray | Tensor,
         *,
         phase: np.ndarray | None = None,
         style: np.ndarray | None = None,
@@ -347,9 +345,14 @@ def own_noise(settings: SongSampling, *parts: int) -> SongSampling:
     return replace(settings, seed=int(mixed.generate_state(1)[0]))
 
 
-def song_condition(song: Song, seconds: float | None) -> tuple[torch.Tensor, np.ndarray | None]:
+def frames_of(song: Song, seconds: float | None) -> int:
+    """Frames of a path for its first `seconds`; None = all of it."""
+    return song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
+
+
+def song_condition(song: Song, seconds: float | None) -> tuple[Tensor, np.ndarray | None]:
     """Condition [167,T] and bars [T] of the first `seconds`; no bars where no beat was found."""
-    frames = song.num_frames if seconds is None else min(song.num_frames, round(seconds * FPS))
+    frames = frames_of(song, seconds)
     rows, phase = song.features.stack()[:, :frames], song.phase[:frames]
     if song.beats.tempo <= 0:
         return torch.from_numpy(np.pad(rows, ((0, 4), (0, 0)))), None
@@ -493,6 +496,8 @@ def _counts(
 ) -> tuple[np.ndarray, np.ndarray, bool]:
     """Counts and the bar [C] that each falls in, from before 0 to the end, and whether two of them
     are a beat."""
+    from .body import beats_beyond
+
     beats = beats_beyond(beats, seconds)
     period = float(np.median(np.diff(beats)))
     times = np.arange(len(phase)) / FPS

@@ -11,17 +11,14 @@ Letters: B samples, T frames of the song, W of a window, O shared by neighbours,
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-import torch
-from torch import Tensor, nn
-from torch.nn import functional as F
 
 from ..config_audio import AudioNetworkConfig
 from ..device import idle_threads
 from ..errors import UsageError
-from ..model.audio.conditioning import MemoryCondition, known_frames
-from ..model.audio.unet import MIN_FRAMES
+from ..model.audio import MIN_FRAMES
 from ..model.diffusion import Sampling, holding, make_sampler
 from ..model.noise import NoiseStream, sample_generators, standard_normal
 from ..motion.rotations import (
@@ -40,12 +37,18 @@ from ..motion.trajectory import (
     WindowJoiner,
     encode_window,
 )
+from ..tensors import F, Tensor, nn, torch
 from .runtime import Runtime
+
+if TYPE_CHECKING:
+    from ..model.audio.conditioning import MemoryCondition
 
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
 TAIL = 2  # of them, what the last frames of a song are derived from
 Progress = Callable[[int, int], None]  # frames done, frames in all
-Recall = Callable[[int, int], MemoryCondition]  # first frame and length of a window, spare included
+Recall = Callable[
+    [int, int], "MemoryCondition"
+]  # first frame and length of a window, spare included
 
 
 @dataclass(frozen=True)
@@ -150,6 +153,8 @@ class SongSampler:
             known, values = self._known(before, style, end - start)
             memory = None
             if recall is not None:
+                from ..model.audio.conditioning import known_frames
+
                 remembered = recall(start, known.shape[-1])
                 memory = remembered.to(self.device).after(known_frames(values, known))
             shown = self.settings.overlap if before else 0
@@ -215,7 +220,7 @@ class SongSampler:
         values: Tensor,
         tracked: np.ndarray | None,
         draws: list[NoiseStream],
-        memory: MemoryCondition | None = None,
+        memory: "MemoryCondition | None" = None,
         *,
         shown: int,
     ) -> list[tuple[np.ndarray, float]]:
@@ -287,11 +292,12 @@ def carry_on(rows: np.ndarray, known: int) -> None:
     rows[POSITION][:, known:] = path
 
     rotation = torch.as_tensor(rows[QUATERNION].T, dtype=torch.float64)  # W 4
-    rotation = quaternion_continuous(torch.nn.functional.normalize(rotation, dim=-1), dim=-2)
+    rotation = quaternion_continuous(F.normalize(rotation, dim=-1), dim=-2)
     both = quaternion_multiply(rotation[1:], quaternion_conjugate(rotation[:-1]))  # W-1 4, turns
-    turn = quaternion_slerp(both[known - 2], both[known], torch.tensor([0.5]).to(both))
-    due = quaternion_multiply(turn, rotation[known - 1])
-    miss = quaternion_multiply(due, quaternion_conjugate(rotation[known]))
+    half, past = torch.tensor([0.5]).to(both), known + 1
+    turn = quaternion_slerp(both[known - 2 : known - 1], both[known:past], half)  # 1 4
+    due = quaternion_multiply(turn, rotation[known - 1 : known])
+    miss = quaternion_multiply(due, quaternion_conjugate(rotation[known:past]))
     share = torch.as_tensor(_fade(rest, POSE_FRAMES))[:, None]
     nothing = torch.tensor([1.0, 0.0, 0.0, 0.0], dtype=torch.float64).expand(rest, 4)
     turns = quaternion_slerp(nothing, miss.expand(rest, 4), share)

@@ -6,6 +6,7 @@ Run by test_without_torch.py in a process of its own, since one process has one 
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import numpy as np
 NAMES = (
     "prompts", "clauses", "held", "meanwhile", "ddpm", "dpm-solver++", "one-step", "two-steps",
     "null", "timeline", "loop", "path", "joints", "span", "ends", "stream",
+    "song",
 )  # fmt: skip
 
 
@@ -21,6 +23,7 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
     from src.shared.model.diffusion import Sampling
     from src.shared.pipelines.edit import continue_clips, edit_clip
     from src.shared.pipelines.path import DrawnPath
+    from src.shared.pipelines.song_sampler import SongSampling
     from src.shared.pipelines.timeline import Part, Timeline
 
     make = generator.generate
@@ -54,6 +57,13 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
         timeline = Timeline(two.passages, (part,))
         return [generator.timeline(timeline, sampling=few).motion]
 
+    def song() -> list[Any]:
+        rows = np.random.default_rng(0).random((167, 300), dtype=np.float32)
+        settings = SongSampling(seed=3, steps=3)
+        paths = generator.audio.generate(rows, phase=np.arange(300) / 60, settings=settings)
+        return [SimpleNamespace(quaternions=each.quaternion, root_position=each.position)
+                for each in paths]  # fmt: skip
+
     found = (
         lambda: make(["a person walks", "una persona salta"], seconds=[1.0, 1.5], sampling=few),
         lambda: make("a person turns 90 degrees to the left, then waves twice", sampling=few),
@@ -71,6 +81,7 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
         lambda: edited(edit_clip(clip, 0.5, 1.2), "a person jumps"),
         lambda: edited(continue_clips(clip, clip, keep=0.5, seconds=3.0), "a person jumps"),
         streamed,
+        song,
     )
     return dict(zip(NAMES, found, strict=True))
 

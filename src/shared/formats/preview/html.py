@@ -14,6 +14,7 @@ import io
 import json
 import re
 from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import lru_cache
 from importlib.resources import files
 from itertools import zip_longest
@@ -146,13 +147,27 @@ SPARE = 1.0  # seconds that a song may go on after the motion before it is cut
 BLOCK = 65_536  # samples; the encoder of some libsndfile versions overflows on long ones
 
 
+_begun: dict[tuple[Path, float], Future[str]] = {}  # of songs and seconds, by `begin_song_uri`
+
+
+def begin_song_uri(path: Path, seconds: float) -> None:
+    """Begin with what `song_uri` will be asked for, beside whatever is done until then."""
+    beside = ThreadPoolExecutor(1)
+    _begun[path, seconds] = beside.submit(_song_uri, path, seconds)
+    beside.shutdown(wait=False)
+
+
 def song_uri(path: str | Path, seconds: float) -> str:
     """The first `seconds` of a song as a `data:` URI that browsers play.
 
     Raises:
         UserError: the file is missing or no sound that can be read.
     """
-    path = Path(path)
+    begun = _begun.pop((Path(path), seconds), None)
+    return _song_uri(Path(path), seconds) if begun is None else begun.result()
+
+
+def _song_uri(path: Path, seconds: float) -> str:
     try:
         sound = SoundReader(path)
         if path.stat().st_size <= KEEP.get(sound.format, 0) and _plays(sound, seconds + SPARE):
