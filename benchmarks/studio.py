@@ -1,25 +1,34 @@
 """What the studio's page takes in headless Chromium, from a disk: loading, first and next motion.
 
     python -m benchmarks.studio --runs 3
+    python -m benchmarks.studio --runs 3 --live --steps 2
 
 Seconds from the start of loading until the model is there and until the first motion (4 s) is
 shown; *next*, from the wish for another seed until that motion is made. Nothing is drawn, for want
-of WebGL. Each run is a browser of its own with an empty profile.
+of WebGL. With `--live`, seconds from each of eight sentences, 2.4 s apart, until a frame shows it,
+and how many times as fast as it passes the motion is made. Each run is a browser of its own with an
+empty profile.
 """
 
 import argparse
 import statistics
 import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from src.shared.studio.page import write_studio
 from tests.shared.formats.chromium_pipe import Browser
 
 SEEDS = 5
+SENTENCES = ("walks forward", "waves", "jumps", "stands", "bows", "runs", "claps", "turns around")
+APART = 2.4  # seconds
 
 
-def measured(page: Path) -> list[float]:
-    """Loaded, first and median next of one browser, in seconds."""
+@contextmanager
+def opened(page: Path) -> Iterator[Browser]:
+    """The page in a browser of its own, its first motion made."""
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
         Browser(page.as_uri(), Path(profile), ready="typeof studio === 'object'") as browser,
@@ -27,6 +36,27 @@ def measured(page: Path) -> list[float]:
         browser.wait("studio.timings?.first !== undefined", 180)
         browser.evaluate("studio.history.change({ takes: 1 })")
         browser.wait("!studio.making")
+        yield browser
+
+
+def live(page: Path) -> list[float]:
+    """Least, median and most seconds until a sentence is seen; times as fast as real time."""
+    with opened(page) as browser:
+        browser.evaluate("document.getElementById('live').click()")
+        browser.wait("studio.live?.made > 0")
+        for text in SENTENCES:
+            time.sleep(APART)
+            browser.evaluate(f"studio.editBlock({{ text: 'a person {text}' }}); studio.make()")
+        time.sleep(APART)
+        delays = browser.evaluate("studio.live.delays")
+        speed: float = browser.evaluate("studio.live.made / 30 / studio.live.busy")
+    assert len(delays) == len(SENTENCES)
+    return [min(delays), statistics.median(delays), max(delays), speed]
+
+
+def measured(page: Path) -> list[float]:
+    """Loaded, first and median next of one browser, in seconds."""
+    with opened(page) as browser:
         following = []
         for seed in range(1, SEEDS + 1):
             browser.evaluate(f"studio.history.change({{ seed: {seed} }}); studio.make()")
@@ -40,13 +70,18 @@ def main() -> None:
     """Print a line for each run."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--steps", type=int, help="of the page; without it, the model's own")
+    parser.add_argument("--live", action="store_true")
     options = parser.parse_args()
+    measure, heads = measured, ("loaded", "first", "next")
+    if options.live:
+        measure, heads = live, ("least", "median", "most", "times")
     with tempfile.TemporaryDirectory() as folder:
-        page = write_studio(Path(folder))
+        page = write_studio(Path(folder), steps=options.steps)
         print(f"{page.stat().st_size / 1e6:.1f} MB")
-        print(f"{'loaded':>8}{'first':>8}{'next':>8}")
+        print("".join(f"{head:>8}" for head in heads))
         for _ in range(options.runs):
-            print("".join(f"{each:8.2f}" for each in measured(page)))
+            print("".join(f"{each:8.2f}" for each in measure(page)))
 
 
 if __name__ == "__main__":

@@ -39,6 +39,12 @@ export class Engine {
     return this.director.make(scene, seed, told);
   }
 
+  /** What comes next of a body that goes on and on, and does as soon as possible what the text says; `begin`: of a new one, with a seed. */
+  live({ text, seed, begin }) {
+    if (begin) this.stream = this.director.stream(seed);
+    return this.stream.next(text);
+  }
+
   warning({ text }) {
     return this.director.warning(text);
   }

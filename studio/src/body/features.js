@@ -14,7 +14,15 @@ export const [FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT] = [0, 1, 2, 3, 4
 export const ORIGIN = { x: 0, z: 0, heading: 0 };
 
 export const framesOf = (features) => features.length / WIDTH;
-export const cut = (features, start, stop) => features.slice(start * WIDTH, stop * WIDTH);
+export const cut = (features, start, stop = Infinity) => features.slice(start * WIDTH, stop * WIDTH);
+
+export const framesOfMotion = (motion, start, stop = motion.frames) => ({
+  ...motion,
+  frames: stop - start,
+  quaternions: motion.quaternions.slice(start * JOINTS * 4, stop * JOINTS * 4),
+  root: motion.root.slice(start * 3, stop * 3),
+  contacts: motion.contacts.slice(start * 2, stop * 2),
+});
 
 /** Frames from start to stop lose the means of these columns of the root row, in place: see without_drift. */
 export function removeDrift(features, columns, start = 0, stop = framesOf(features)) {

@@ -6,7 +6,7 @@ import {
   norm, scale, slerp, sub, transposed, unit, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
 } from "./rotations.js";
 import {
-  decodeFeatures, framesOf, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
+  decodeFeatures, framesOf, joinArrays, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
 } from "./features.js";
 import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet, twoBones } from "./footskate.js";
 import { ARMS, FPS, INDEX, JOINTS, pose, SKELETON } from "./skeleton.js";
@@ -37,7 +37,7 @@ function withoutHeading(features) {
 }
 
 /** No joint turns faster than `limit` radians a second. */
-function clampVelocity(quaternions, limit, fps) {
+export function clampVelocity(quaternions, limit, fps) {
   if (limit === null) return quaternions;
   const width = JOINTS * 4, step = limit / fps, path = quaternions.slice();
   for (let at = width; at < path.length; at += 4) {
@@ -144,7 +144,13 @@ function lacking(gap) {
 
 // ---------------------------------------------------------------- seams
 
-const FADE = 10;
+export const FADE = 10;
+
+/** Motions one after the other, all where they are; quaternion signs go on. */
+export function joined(...motions) {
+  const [quaternions, root, contacts] = ["quaternions", "root", "contacts"].map((name) => joinArrays(motions.map((motion) => motion[name])));
+  return { ...motions[0], frames: root.length / 3, quaternions: continuous(quaternions, JOINTS * 4), root, contacts };
+}
 
 /** Features with unknown entries moved to meet the known ones, whole rotations by turning them; contacts stay as they are. */
 export function blendBoundaries(features, known, fade = FADE) {

@@ -1,7 +1,7 @@
 // All that the page can ask for: a sentence, a timeline, a path, clips
 // (src/shared/pipelines/text.py, timeline.py, path.py, edit.py).
 
-import { cut, decodeFeatures, FORWARD, framesOf, hastened, HEIGHT, joinArrays, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
+import { cut, decodeFeatures, FORWARD, framesOf, framesOfMotion, hastened, HEIGHT, joinArrays, LATERAL, removeDrift, ROOT, WIDTH, YAW_RATE } from "../body/features.js";
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
@@ -10,7 +10,7 @@ import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } f
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
-import { freeConstraint, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
+import { freeConstraint, MotionStream, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
@@ -115,6 +115,11 @@ export class Director {
 
   beginsStanding(text) {
     return this.scope.meta.gestures.includes(this.nearest(text));
+  }
+
+  /** Motion without end, for texts as they stand. */
+  stream(seed) {
+    return new MotionStream(this.sampler, this.settings.post, (text) => this.beginsStanding(text), seed);
   }
 
   // ---------------------------------------------------------------- a sentence
@@ -476,14 +481,6 @@ function untilLanded(motion, steps, last, otherwise) {
   if (lands.length >= steps) otherwise = Math.min(lands[steps - 1] + round(SETTLED * motion.fps), last);
   return framesOfMotion(motion, 0, start + otherwise);
 }
-
-const framesOfMotion = (motion, start, stop) => ({
-  ...motion,
-  frames: stop - start,
-  quaternions: motion.quaternions.slice(start * 88, stop * 88),
-  root: motion.root.slice(start * 3, stop * 3),
-  contacts: motion.contacts.slice(start * 2, stop * 2),
-});
 
 /** A led turn whose place is known from where it begins to turn: who walked has come to a stop. */
 function onTheSpot(given) {

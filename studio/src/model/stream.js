@@ -2,12 +2,14 @@
 // (src/shared/pipelines/stream.py).
 
 import { cut, decodeFeatures, framesOf, joinArrays, WIDTH } from "../body/features.js";
+import { StreamingPostProcessor } from "../body/streaming.js";
 import { endsAtRest } from "../body/measurements.js";
 import { INDEX, pose } from "../body/skeleton.js";
 import { blendBoundaries } from "../body/whole.js";
 import { derivedSeed } from "./noise.js";
 
 export const WINDOW = 150, OVERLAP = 30, SHORTEST = 48, TRIES = 8;
+const LIVE = 15, AHEAD = 30; // frames after which another text may begin, and those made beyond: WINDOW and AHEAD of live.py
 const STILL = 10, MOVED = 0.05, MEETING = 30;
 
 export const freeConstraint = (frames) => ({
@@ -63,48 +65,105 @@ function met(before, piece, known) {
 
 export const retrySeeds = (seed) => Array.from({ length: TRIES }, (_, number) => derivedSeed(seed, number));
 
-/**
- * Raw features of passages { text, frames, window?, miss?, afresh? } one after another.
- * @param {Sampler} sampler
- * @param {object[]} passages
- * @param {bigint|number} seed
- * @param {{constraint?: object, window?: number, overlap?: number, guidance?: number, told?: function}} options
- *     constraint: of all frames; told: called with the frames that are done
- */
-export async function streamFeatures(sampler, passages, seed, options = {}) {
-  const { constraint = null, window = WINDOW, overlap = OVERLAP, guidance, told } = options;
-  let before = new Float32Array(), made = 0, number = 0, said = null;
+/** Raw features of passages one after another, at once; see `featurePieces`. */
+export async function streamFeatures(...all) {
   const pieces = [];
+  for await (const piece of featurePieces(...all)) pieces.push(piece);
+  return joinArrays(pieces);
+}
+
+/**
+ * Raw features of passages { text, frames, window?, miss?, afresh? } in pieces that never change again.
+ * @param {Sampler} sampler
+ * @param {Iterable<object>} passages taken one by one, each when the motion before it is made
+ * @param {bigint|number} seed
+ * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, guidance?: number, told?: function}} options
+ *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops; told: called with the frames that are done
+ */
+async function* featurePieces(sampler, passages, seed, options = {}) {
+  const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, guidance, told } = options;
+  let before = new Float32Array(), spare = before, made = 0, number = 0, said = null;
+  const goOn = (piece) => {
+    before = cut(joinArrays([before, piece]), -overlap);
+    made += framesOf(piece);
+    told?.(made);
+    return piece;
+  };
   for (const passage of passages) {
+    if (passage.text === said && framesOf(spare) >= passage.frames) {
+      const piece = cut(spare, 0, passage.frames);
+      spare = cut(spare, passage.frames);
+      yield goOn(piece);
+      continue;
+    }
+    const beyond = constraint || passage.miss ? 0 : ahead;
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
     let shared = passage.afresh && passage.text !== said && stands(before) ? new Float32Array() : before;
     said = passage.text;
     for (const length of windowLengths(passage.frames, framesOf(shared), Math.min(window, passage.window ?? window), overlap)) {
       const kept = framesOf(shared), start = made - kept;
-      const known = constraint ? windowOf(constraint, start, made + length) : freeConstraint(kept + length);
+      const known = constraint ? windowOf(constraint, start, made + length) : freeConstraint(kept + length + beyond);
       known.values.set(shared);
       known.known.fill(1, 0, shared.length);
       known.shown.fill(1, 0, shared.length);
-      const longer = lengthened(known, SHORTEST);
+      const longer = lengthened(known, SHORTEST), frames = framesOf(known.values);
       const somethingKnown = kept > 0 || constraint;
       let best = null, least = Infinity, chosen = null;
       for (const trial of [...lucky, ...retrySeeds(derivedSeed(seed, number))]) {
         const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, guidance);
-        let piece = cut(blendBoundaries(cut(features, 0, kept + length), known.known), kept, kept + length);
+        let piece = cut(blendBoundaries(cut(features, 0, frames), known.known), kept);
         if (!kept && before.length) piece = met(before, piece, known.known);
         const found = passage.miss ? passage.miss(joinArrays([own, piece])) : 0;
         if (found < least) { least = found; best = piece; chosen = trial; }
         if (least <= 0) break;
       }
-      const whole = joinArrays([before, best]);
-      shared = before = cut(whole, Math.max(0, framesOf(whole) - overlap), framesOf(whole));
+      spare = cut(best, length);
+      best = goOn(cut(best, 0, length));
+      shared = before;
       own = joinArrays([own, best]);
       lucky = passage.window ? [chosen] : [];
-      made += length;
       number++;
-      pieces.push(best);
-      told?.(made);
+      yield best;
     }
   }
-  return joinArrays(pieces);
+}
+
+/** Motion without end in settled pieces, while the text changes. */
+export class MotionStream {
+  texts = []; // first frames of passages, and what they show
+  made = 0;
+  shown = 0;
+
+  /** @param {Sampler} sampler @param {object} post settings @param {function} afresh whether a text's action begins standing @param {number} seed */
+  constructor(sampler, post, afresh, seed) {
+    this.afresh = afresh;
+    this.processor = new StreamingPostProcessor(post);
+    this.pieces = featurePieces(sampler, this.passages(), seed, { ahead: AHEAD });
+  }
+
+  *passages() {
+    for (;;) {
+      const { text } = this;
+      if (this.textAt(this.made) !== text) this.texts.push([this.made, text]);
+      yield { text, frames: LIVE, afresh: this.afresh(text) };
+    }
+  }
+
+  /** The next piece that settles, with the text that each of its frames shows. */
+  async next(text) {
+    this.text = text;
+    for (;;) {
+      const { value: features } = await this.pieces.next();
+      this.made += framesOf(features);
+      const piece = this.processor.add(features);
+      if (!piece) continue;
+      const texts = Array.from({ length: piece.frames }, () => this.textAt(this.shown++));
+      while (this.texts[1]?.[0] <= this.shown) this.texts.shift();
+      return { ...piece, texts };
+    }
+  }
+
+  textAt(frame) {
+    return this.texts.findLast(([start]) => start <= frame)?.[1];
+  }
 }

@@ -8,9 +8,10 @@ import { writeGlb } from "../files/glb.js";
 import { FPS, useSkeleton } from "../body/skeleton.js";
 import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
+import { goLive } from "./live.js";
 import { readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
-import { fromLink, History, LIMITS, spanOf, START, toLink, within } from "./scene.js";
+import { fromLink, History, isEmpty, LIMITS, spanOf, START, toLink, within } from "./scene.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
 
@@ -51,7 +52,7 @@ class Page {
     Object.assign(this, { rest: { glb, vrma }, licences });
     this.timings.loaded = performance.now();
     document.body.classList.add("ready");
-    $("make").disabled = false;
+    $("make").disabled = $("live").disabled = false;
     await this.warn();
     await this.make();
   }
@@ -80,6 +81,7 @@ class Page {
       const step = (now - last) / 1000;
       last = now;
       if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5));
+      this.live?.tick();
       this.stage.draw($("follow").checked && !this.drawing, step);
       requestAnimationFrame(frame);
     };
@@ -104,6 +106,7 @@ class Page {
     $("takes").addEventListener("change", () => this.history.change({ takes: $("takes").value, chosen: 0 }));
     $("dice").addEventListener("click", () => { this.history.change({ seed: Math.floor(Math.random() * 100000) }); this.make(); });
     $("make").addEventListener("click", () => this.make());
+    $("live").addEventListener("click", () => goLive(this));
     $("stop").addEventListener("click", () => this.stop());
     $("add").addEventListener("click", () => this.addBlock());
     $("cut").addEventListener("click", () => this.cutBlock());
@@ -143,6 +146,7 @@ class Page {
   }
 
   key(event) {
+    if (this.live && event.key !== "Escape") return;
     const on = (selector) => event.target.closest?.(selector);
     const undone = (event.ctrlKey || event.metaKey) && !on("textarea, input[type=number]") && event.key.toLowerCase(); // there the browser's own
     if (undone === "y" || (undone === "z" && event.shiftKey)) { event.preventDefault(); this.history.redo(); }
@@ -231,7 +235,7 @@ class Page {
       this.showClip();
     }
     this.showMotions(chosen);
-    this.stage?.showPath(this.clip ? null : path);
+    this.stage?.showPath(this.clip || this.live ? null : path);
     this.warnSoon();
   }
 
@@ -250,15 +254,11 @@ class Page {
 
   async make() {
     if (!this.client) return;
+    if (this.live) { this.live.say(); return; }
     if (this.making) { this.again = true; return; }
     const { asked } = this, { takes, seed, ...scene } = asked;
-    const empty = scene.blocks.findIndex(({ text }) => !/[\p{L}\p{N}]/u.test(text));
-    if (empty >= 0 && !scene.clip) {
-      this.select(empty);
-      this.tell("Say in a few words what the body does.", "warning");
-      $("text").focus();
-      return;
-    }
+    const empty = scene.blocks.findIndex(isEmpty);
+    if (empty >= 0 && !scene.clip) { this.askForWords(empty); return; }
     const { mode, keep } = scene.clip ?? {}, kept = { continue: [keep, 0], between: [keep, keep] }[mode] ?? [0, 0];
     await this.during(async () => {
       let made = 0;
@@ -287,6 +287,12 @@ class Page {
     }, () => this.client.stop());
   }
 
+  askForWords(index) {
+    this.select(index);
+    this.tell("Say in a few words what the body does.", "warning");
+    $("text").focus();
+  }
+
   /** One thing at a time that takes long: told at its begin and its end, ended early by `halt`. */
   async during(work, halt = () => {}) {
     this.halt = halt;
@@ -306,7 +312,8 @@ class Page {
   setMaking(making) {
     this.making = making;
     document.body.classList.toggle("making", making);
-    $("make").setAttribute("aria-busy", String(making));
+    $("make").setAttribute("aria-busy", String(making && !this.live));
+    $("live").disabled = making;
     this.offerStop();
     this.showButtons();
   }
@@ -328,6 +335,7 @@ class Page {
 
   /** The motions of the scene that are there; those of before, told stale, where none is. */
   showMotions() {
+    if (this.live) return;
     const { takes, chosen } = this.scene;
     const all = Array.from({ length: takes }, (_, take) => this.motions.get(this.keyOf(take)));
     const found = all.slice(0, all.includes(undefined) ? all.indexOf(undefined) : takes);
@@ -374,7 +382,7 @@ class Page {
   }
 
   choose(take) {
-    if (take < (this.shown?.length ?? 0)) this.history.change({ chosen: take }, "chosen");
+    if (!this.live && take < (this.shown?.length ?? 0)) this.history.change({ chosen: take }, "chosen");
   }
 
   setPlaying(playing) {

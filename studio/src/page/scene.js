@@ -14,6 +14,9 @@ export const within = (value, [low, high], otherwise) => {
 };
 const whole = (value, range, otherwise) => Math.round(within(value, range, otherwise));
 
+/** Whether a sentence has no words. */
+export const isEmpty = ({ text }) => !/[\p{L}\p{N}]/u.test(text);
+
 /** Seconds that sentences have. */
 export const spanOf = (blocks) => blocks.reduce((sum, { seconds }) => sum + seconds, 0);
 

@@ -52,11 +52,11 @@ export class Stage {
     Object.assign(this.sun.shadow.camera, { left: -6, right: 6, top: 6, bottom: -6, near: 0.5, far: 20 });
     this.sun.shadow.radius = 4;
     this.scene.add(this.sun, this.sun.target);
-    const floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
-    floor.rotation.x = -Math.PI / 2;
-    floor.receiveShadow = true;
+    this.floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
+    this.floor.rotation.x = -Math.PI / 2;
+    this.floor.receiveShadow = true;
     this.grid = gridOf(30);
-    this.scene.add(floor, this.grid);
+    this.scene.add(this.floor, this.grid);
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
     this.line.frustumCulled = false;
     this.scene.add(this.line);
@@ -234,6 +234,7 @@ export class Stage {
     const { x, z } = this.controls.target;
     this.sun.target.position.set(x, 0, z);
     this.sun.position.set(x + 2.5, 6, z + 3);
+    for (const { position } of [this.floor, this.grid]) position.set(Math.round(x), position.y, Math.round(z));
     this.renderer.render(this.scene, this.camera);
     this.keepPace(step);
   }
