@@ -82,7 +82,7 @@ class Page {
       last = now;
       if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5));
       this.live?.tick();
-      this.stage.draw($("follow").checked && !this.drawing, step);
+      this.stage.draw($("follow").checked && !this.drawing, step, this.making && !this.live);
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);

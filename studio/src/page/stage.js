@@ -15,13 +15,15 @@ import { INDEX, kinematics } from "../body/skeleton.js";
 
 const SPACING = 1.7; // metres between takes
 const JOINTS = 22;
+const CELL = 0.045; // metres
 
 export class Stage {
   /** @param {HTMLCanvasElement} canvas @param {object} body of the settings: skeleton, mesh, colours */
   constructor(canvas, body) {
     this.canvas = canvas;
     this.body = body;
-    const context = canvas.getContext("webgl2", { antialias: true, alpha: false });
+    this.lean = drawnByProcessor() ? 1 : 0; // see keepPace
+    const context = canvas.getContext("webgl2", { antialias: !this.lean, alpha: false });
     if (!context) throw new Error("no WebGL");
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.shadowMap.enabled = true;
@@ -36,6 +38,7 @@ export class Stage {
     this.controls.addEventListener("change", () => { this.stale = true; });
     this.bodies = [];
     this.shared = meshOf(body);
+    this.coarse = coarser(this.shared.geometry);
     this.addRoom();
     this.paint();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
@@ -47,7 +50,7 @@ export class Stage {
   addRoom() {
     this.scene.add(new HemisphereLight(0xffffff, 0xc4cbd6, 1.9), new AmbientLight(0xffffff, 0.35));
     this.sun = new DirectionalLight(0xffffff, 1.7);
-    this.sun.castShadow = true;
+    this.sun.castShadow = !this.lean;
     this.sun.shadow.mapSize.set(1024, 1024);
     Object.assign(this.sun.shadow.camera, { left: -6, right: 6, top: 6, bottom: -6, near: 0.5, far: 20 });
     this.sun.shadow.radius = 4;
@@ -117,7 +120,7 @@ export class Stage {
   }
 
   newMannequin() {
-    const { geometry, parents, offsets } = this.shared;
+    const { parents, offsets } = this.shared, geometry = this.lean ? this.coarse : this.shared.geometry;
     const bones = parents.map((_, joint) => {
       const bone = new Bone();
       bone.position.fromArray(offsets[joint]);
@@ -219,8 +222,8 @@ export class Stage {
     this.camera.position.setFromSpherical(way).add(target);
   }
 
-  /** Draw what has changed; the camera goes along with the chosen body. Without a graphics card a picture costs what a prediction does. */
-  draw(follow, step) {
+  /** Draw what has changed; the camera goes along with the chosen body; `busy`: what is computed meanwhile makes frames late. Without a graphics card a picture costs what a prediction does. */
+  draw(follow, step, busy) {
     if (follow && this.focus) {
       const aim = this.focus.clone();
       if (this.bodies.length > 1) aim.x = this.controls.target.x;
@@ -236,16 +239,17 @@ export class Stage {
     this.sun.position.set(x + 2.5, 6, z + 3);
     for (const { position } of [this.floor, this.grid]) position.set(Math.round(x), position.y, Math.round(z));
     this.renderer.render(this.scene, this.camera);
-    this.keepPace(step);
+    if (!busy) this.keepPace(step);
   }
 
-  /** Where frames take long, draw less: first no shadows, then fewer pixels. */
+  /** Where frames take long, draw less: first a coarser mannequin and no shadows, then fewer pixels. */
   keepPace(step) {
     this.late = step > 0.045 ? (this.late ?? 0) + 1 : 0;
     if (this.late < 12 || this.lean === 2) return;
     this.late = 0;
-    this.lean = (this.lean ?? 0) + 1;
+    this.lean++;
     this.sun.castShadow = false;
+    if (this.lean === 1 && !this.worn) this.wear(null);
     this.resize();
   }
 
@@ -287,14 +291,47 @@ function dispose(scene) {
 }
 
 /** A square of lines, a metre apart, `reach` metres to each side; in pieces, as some renderers drop lines that pass the camera. */
-function gridOf(reach) {
+function gridOf(reach, piece = 5) {
   const points = [];
   for (let i = -reach; i <= reach; i++)
-    for (let j = -reach; j < reach; j++) points.push(i, 0, j, i, 0, j + 1, j, 0, i, j + 1, 0, i);
+    for (let j = -reach; j < reach; j += piece) points.push(i, 0, j, i, 0, j + piece, j, 0, i, j + piece, 0, i);
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
   const grid = new LineSegments(geometry, new LineBasicMaterial());
   grid.position.y = 0.002;
   return grid;
+}
+
+/** Whether there is no graphics card. */
+function drawnByProcessor() {
+  const context = document.createElement("canvas").getContext("webgl2"), told = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = told ? context.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
+  context?.getExtension("WEBGL_lose_context")?.loseContext(); // browsers have few
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/** The same body of fewer triangles: vertices of one part within a few centimetres become one. */
+function coarser(geometry) {
+  const { position, normal, color, skinIndex, skinWeight } = geometry.attributes, cells = new Map(), cellOf = [];
+  for (let v = 0; v < position.count; v++) {
+    const key = [position.getX(v), position.getY(v), position.getZ(v)].map((x) => Math.round(x / CELL)).join() + skinIndex.getX(v);
+    if (!cells.has(key)) cells.set(key, []);
+    cells.get(key).push(v);
+    cellOf.push(key);
+  }
+  const number = new Map([...cells.keys()].map((key, at) => [key, at])), coarse = new BufferGeometry();
+  for (const [name, own] of Object.entries({ position, normal, color, skinIndex, skinWeight })) {
+    const width = own.itemSize, blend = !name.startsWith("skin"), values = new own.array.constructor(cells.size * width);
+    for (const [key, all] of cells)
+      for (let i = 0; i < width; i++) values[number.get(key) * width + i] = blend ? all.reduce((sum, v) => sum + own.array[v * width + i], 0) / all.length : own.array[all[0] * width + i];
+    coarse.setAttribute(name, new BufferAttribute(values, width));
+  }
+  const corners = [];
+  for (let i = 0; i < geometry.index.count; i += 3) {
+    const face = [0, 1, 2].map((k) => number.get(cellOf[geometry.index.getX(i + k)]));
+    if (new Set(face).size === 3) corners.push(...face);
+  }
+  coarse.setIndex(corners);
+  return coarse;
 }
 
 /** The mannequin's geometry, coloured by the side of its limbs. */

@@ -25,7 +25,7 @@ from src.shared.formats.writers.glb import write_glb, write_glb_clip, write_vrma
 from src.shared.model.checkpoint import resolve_model
 from src.shared.model.diffusion import Sampling
 from src.shared.motion.motion import Motion
-from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 from src.shared.pipelines import live
 from src.shared.pipelines.edit import chosen_joints, continue_clips, edit_clip
 from src.shared.pipelines.motion_generator import MotionGenerator
@@ -35,6 +35,8 @@ from src.shared.pipelines.timeline import Timeline
 from src.shared.studio.page import write_studio
 from tests.shared.data.retarget.test_to_rig import character, same_places
 from tests.shared.formats.chromium_pipe import Browser, chromium
+from tests.shared.formats.firefox_marionette import Firefox, firefox
+from tests.shared.formats.glb_reader import Glb
 from tests.shared.formats.pages import HOSTILE, Page
 
 BROWSER = pytest.mark.skipif(not chromium(), reason="no Chromium is installed")
@@ -78,7 +80,7 @@ def made(browser: Browser, scene: str, clip: str = "") -> None:
     assert browser.evaluate("document.getElementById('status').className") == "note"
 
 
-def exported(browser: Browser, folder: Path, kind: str = "bvh") -> Motion:
+def exported(browser: Browser | Firefox, folder: Path, kind: str = "bvh") -> Motion:
     """What the page saves, read by our own reader."""
     text = browser.evaluate(
         f"btoa(Array.from(studio.bytes('{kind}'), (b) => String.fromCharCode(b)).join(''))"
@@ -267,6 +269,19 @@ def test_a_body_is_live_until_it_is_stopped_and_a_clip_then(
     made(browser, "{ blocks: [{ text: 'a person waves', seconds: 1 }], seed: 80 }")
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(not firefox(), reason="no Firefox is installed")
+def test_firefox_makes_the_same(page: Path, generator: MotionGenerator, tmp_path: Path) -> None:
+    blocks = [{"text": "a person waves", "seconds": 0.5}]
+    scene = base64.urlsafe_b64encode(json.dumps({"v": 1, "blocks": blocks}).encode()).decode()
+    url = f"{page.as_uri()}#{scene.rstrip('=')}"
+    with Firefox(url, tmp_path / "profile", "typeof studio === 'object'") as shown:
+        shown.wait("studio.timings?.first !== undefined", 180)
+        [wanted] = generator.generate(["a person waves"], seconds=0.5)
+        for kind in ("bvh", "glb", "vrma"):
+            assert_same(exported(shown, tmp_path, kind), wanted)
+
+
 @pytest.mark.parametrize("steps", [0, 1001])
 def test_steps_that_no_model_takes_are_refused(steps: int, tmp_path: Path) -> None:
     with pytest.raises(UserError, match=f"steps {steps} is not within 1 ... 1000"):
@@ -286,8 +301,12 @@ def test_a_sentence_gives_what_the_command_line_gives(
     if language == "en":
         flat = "document.getElementById('no-stage').checkVisibility()"  # it has no WebGL, and stays
         assert browser.evaluate(flat)
-        assert_same(exported(browser, tmp_path, "glb"), wanted)
-        assert_same(exported(browser, tmp_path, "vrma"), wanted)
+        for kind in ("glb", "vrma"):
+            assert_same(exported(browser, tmp_path, kind), wanted)
+            plain = Glb(tmp_path / f"page.{kind}")  # a reader that is none of ours
+            for frame in (0, 31, 59):
+                places, _ = plain.world(frame)
+                np.testing.assert_allclose(places[:22], wanted.positions()[frame], atol=1e-4)
         page = GlbFile.read(tmp_path / "page.vrma").document
         command = GlbFile.read(write_vrma(wanted, tmp_path / "command.vrma")).document
         assert page["extensions"] == command["extensions"] and page["nodes"] == command["nodes"]
@@ -1046,6 +1065,67 @@ def test_avatars_that_cannot_move_are_told(browser: Browser, tmp_path: Path) -> 
     assert body_of(browser)[1] == PAYLOADS[0] + ".glb"
     assert browser.evaluate("globalThis.hacked === undefined")
     browser.evaluate("studio.chooseBody('')")
+
+
+@BROWSER
+def test_other_readers_see_what_the_command_line_makes(
+    browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    bvhio, pygltflib = (pytest.importorskip(name) for name in ("bvhio", "pygltflib"))
+    made(browser, "{ blocks: [{ text: 'a person kicks', seconds: 2 }], seed: 2 }")
+    [wanted] = generator.generate(["a person kicks"], seconds=2.0, sampling=Sampling(seed=2))
+    exported(browser, tmp_path)
+    root = bvhio.readAsHierarchy(str(tmp_path / "page.bvh"))
+    joints = {joint.Name: joint for joint, _, _ in root.layout()}
+    for frame in (0, 25, 59):
+        root.loadPose(frame, recursive=True)
+        found = [list(joints[name].PositionWorld) for name in JOINT_NAMES]
+        np.testing.assert_allclose(
+            np.array(found) / 100, wanted.positions()[frame], atol=2e-4
+        )  # single precision, in centimetres
+    exported(browser, tmp_path, "glb")
+    document = pygltflib.GLTF2().load(str(tmp_path / "page.glb"))
+    [animation] = document.animations
+    [path] = [c for c in animation.channels if c.target.path == "translation"]
+    values = document.accessors[animation.samplers[path.sampler].output]
+    view = document.bufferViews[values.bufferView]
+    data = document.binary_blob()[view.byteOffset : view.byteOffset + view.byteLength]
+    np.testing.assert_allclose(
+        np.frombuffer(data, np.float32).reshape(-1, 3), wanted.root_position, atol=1e-4
+    )
+
+
+@BROWSER
+def test_a_film_shows_what_is_played(page: Path, tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    ready = "typeof studio === 'object' && Boolean(studio.stage)"
+    with Browser(page.as_uri(), tmp_path / "profile", (500, 400), ready, webgl=True) as shown:
+        shown.wait("studio.timings?.first !== undefined", 180)
+        shown.evaluate("studio.history.change({ takes: 1 })")
+        made(shown, "{ blocks: [{ text: 'a person jumps', seconds: 2 }], seed: 0 }")
+        shown.evaluate(  # what would be saved
+            "URL.createObjectURL = (blob) => { globalThis.saved = blob; return 'blob:none'; };"
+            " HTMLAnchorElement.prototype.click = function () { globalThis.named = this.download; }"
+        )
+        shown.evaluate("studio.film()")
+        name = shown.evaluate("named")
+        coded = shown.evaluate(
+            "new Promise((resolve) => { const reader = new FileReader();"
+            " reader.onload = () => resolve(reader.result.split(',')[1]);"
+            " reader.readAsDataURL(saved); })"
+        )
+        assert name in ("a-person-jumps.mp4", "a-person-jumps.webm")
+        assert text_of(shown, "status") == f"Saved {name}."
+    path = tmp_path / name
+    path.write_bytes(base64.b64decode(coded))
+    with av.open(str(path)) as film:
+        pictures = [each.to_ndarray(format="gray") for each in film.decode(video=0)]
+        end = film.streams.video[0]
+    assert len(pictures) > 10 and end.width > 100
+    change = [
+        np.abs(a.astype(float) - b).mean() for a, b in zip(pictures, pictures[5:], strict=False)
+    ]
+    assert max(change) > 0.1  # it moves
 
 
 @BROWSER
