@@ -1,4 +1,4 @@
-// Builds what ships in src/shared/studio/shell: one classic script, onnxruntime's WebAssembly, the
+// Builds what ships in src/shared/studio/shell: two classic scripts, onnxruntime's WebAssembly, the
 // licences of both libraries. `npm ci && npm run build`.
 
 import { build } from "esbuild";
@@ -7,8 +7,9 @@ import { gzipSync } from "node:zlib";
 
 const shell = new URL("../src/shared/studio/shell/", import.meta.url);
 const modules = new URL("node_modules/", import.meta.url);
-const result = await build({
-  entryPoints: ["src/main.js"],
+const { outputFiles } = await build({
+  entryPoints: { studio: "src/main.js", helper: "src/helper.js" },
+  outdir: "out", // nothing is put there
   bundle: true,
   write: false,
   minify: true,
@@ -22,11 +23,14 @@ const result = await build({
   banner: { js: 'var studioAddress="studio://page/studio.js",studioOrigin="null";' },
   define: { "import.meta.url": "studioAddress", "location.origin": "studioOrigin" },
 });
-const script = result.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
-writeFileSync(new URL("studio.js", shell), script);
+for (const { path, text } of outputFiles) {
+  const script = text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--"), name = path.split(/[\\\\/]/u).pop();
+  writeFileSync(new URL(name, shell), script);
+  console.log(`${name} ${script.length} bytes`);
+}
 const wasm = readFileSync(new URL("onnxruntime-web/dist/ort-wasm-simd-threaded.wasm", modules));
 writeFileSync(new URL("onnxruntime.wasm.gz", shell), gzipSync(wasm, { level: 9 }));
 const notices = ["three/LICENSE", "../licences/onnxruntime.txt"].map((name) => readFileSync(new URL(name, modules), "utf8"));
 const licences = `three.js\n\n${notices[0]}\n\nonnxruntime\n\n${notices[1]}`;
 writeFileSync(new URL("licences.txt.gz", shell), gzipSync(licences, { level: 9 }));
-console.log(`studio.js ${script.length} bytes, onnxruntime ${wasm.length} bytes`);
+console.log(`onnxruntime ${wasm.length} bytes`);

@@ -10,12 +10,12 @@ import { Tokenizer } from "./model/tokenizer.js";
 import { Weights } from "./model/safetensors.js";
 
 export class Engine {
-  /** @param {object} settings of the page @param {Object<string, Uint8Array>} parts unpacked */
-  static async open(settings, parts) {
+  /** @param {object} settings of the page @param {Object<string, Uint8Array>} parts unpacked @param {function[]} helpers that predict */
+  static async open(settings, parts, helpers = []) {
     useSkeleton(settings.skeleton);
     const weights = new Weights(parts.weights);
     const tower = new TextTower(weights, new Tokenizer(parts.tokenizer, settings.maxTokens));
-    const denoiser = new Denoiser(parts, settings.weights, settings.shifted);
+    const denoiser = Object.assign(new Denoiser(parts, settings.weights, settings.shifted), { helpers });
     const model = {
       ...settings,
       mean: weights.floats("statistics.mean"),

@@ -1,7 +1,5 @@
-// What runs beside the page. One worker leads: it has the whole engine. Another may help it: it
-// holds a second denoiser, which takes half of each batch.
+// What runs beside the page. One worker leads: it has the whole engine. Others predict for it (helper.js).
 
-import { Denoiser } from "./model/denoiser.js";
 import { Engine } from "./engine.js";
 import { SentenceReader } from "./model/sentence.js";
 
@@ -24,9 +22,8 @@ export function handler() {
   let engine = null;
   return async (call, args, told) => {
     if (call === "prepare") { prepare(args); return null; }
-    if (call === "open") { engine = await Engine.open(args.settings, args.parts); return null; }
-    if (call === "help") { help(args); return null; }
-    if (call === "helper") { engine.director.sampler.denoiser.helper = remote(args.port); return null; }
+    if (call === "open") { engine = await Engine.open(args.settings, args.parts, args.ports?.map(remote)); return null; }
+    if (call === "alone") { engine.director.sampler.denoiser.helpers.forEach((helper) => helper.end()); return null; }
     return engine[call](args, told);
   };
 }
@@ -37,28 +34,25 @@ function prepare({ settings, texts }) {
   for (const text of [...texts, ...texts]) reader.clauses(text);
 }
 
-function help({ parts, names, port }) {
-  const denoiser = new Denoiser(parts, names);
-  denoiser.session(parts.adapted ? "adapted" : "graph").catch(() => null); // while the other one reads the sentence
-  port.onmessage = async ({ data: { id, args } }) => {
-    try { port.postMessage({ id, result: await denoiser.predict(...args) }); }
-    catch (error) { port.postMessage({ id, error: String(error) }); }
-  };
-}
-
-/** Calls to a helper, one promise each. */
+/** Calls to a helper, one promise each; after its `end` all fail. */
 function remote(port) {
   const waiting = new Map();
-  let next = 0;
+  let next = 0, ended = false;
   port.onmessage = ({ data: { id, result, error } }) => {
     const { resolve, reject } = waiting.get(id);
     waiting.delete(id);
     if (error) reject(new Error(error));
     else resolve(result);
   };
-  return (...args) =>
+  const call = (...args) =>
     new Promise((resolve, reject) => {
+      if (ended) { reject(new Error("gone")); return; }
       waiting.set(++next, { resolve, reject });
       port.postMessage({ id: next, args });
     });
+  call.end = () => {
+    ended = true;
+    waiting.forEach(({ reject }) => reject(new Error("gone")));
+  };
+  return call;
 }

@@ -35,7 +35,8 @@ from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
 from ..pipelines.words import MAX_COUNT, MOST, UNITS, all_words, unlearned_words
 
-WASM, SCRIPT, TEMPLATE = "onnxruntime.wasm.gz", "studio.js", "studio.html"
+WASM, SCRIPT, HELPER = "onnxruntime.wasm.gz", "studio.js", "helper.js"
+TEMPLATE = "studio.html"
 LICENCES = "licences.txt.gz"
 SAMPLERS = ("ddim", "dpm-solver++")  # that the page's scripts know
 
@@ -84,6 +85,7 @@ def write_studio(out: Path, model: str = TEXT_MODEL, steps: int | None = None) -
         ),
         "@PARTS@": blobs,
         "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
+        "@HELPER@": shell.joinpath(HELPER).read_text("utf-8"),
     }
     page = shell.joinpath(TEMPLATE).read_text("utf-8")
     page = re.sub("|".join(filled), lambda mark: filled[mark[0]], page)

@@ -18,7 +18,7 @@ export class Denoiser {
     Object.assign(this, { parts, names, shifted, weights: new Weights(parts.weights) });
     this.sessions = {};
     this.adapters = {}; // of so many samples each, as they are used
-    this.helper = null; // predicts as this one does, elsewhere and at the same time
+    this.helpers = []; // predict in its place, elsewhere and at the same time
   }
 
   /** Of a graph, as it is for the first of few steps where that is `first`: opened when it is first needed, and again where that failed. */
@@ -56,17 +56,12 @@ export class Denoiser {
    * @returns {Promise<Float32Array[]>}
    */
   async predict(batch, step, texts, tag, shown, opened = 0, first = false) {
-    if (this.helper && batch.length > 1) {
-      const half = batch.length >> 1;
-      const rest = [batch.slice(half), step, texts.slice(half), tag, shown, opened, first];
-      const there = this.helper(...rest).catch(() => null); // it may lack the memory
-      const here = await this.predict(batch.slice(0, half), step, texts.slice(0, half), tag, shown, opened, first);
-      let theirs = await there;
-      if (theirs === null) {
-        this.helper = null;
-        theirs = await this.predict(...rest);
-      }
-      return [...here, ...theirs];
+    if (this.helpers.length) {
+      const half = this.helpers.length > 1 ? Math.ceil(batch.length / 2) : batch.length, rest = [tag, shown, opened, first];
+      const shares = [[0, half], [half, batch.length]].filter(([start, stop]) => start < stop);
+      const found = await Promise.all(shares.map((share, i) => this.helpers[i](batch.slice(...share), step, texts.slice(...share), ...rest))).catch(() => null);
+      if (found) return found.flat();
+      this.helpers = []; // they may lack the memory
     }
     const number = batch.length, size = batch[0].length, frames = size / 138;
     const shape = [number, frames, 23, 6];

@@ -9,14 +9,14 @@ export class Client {
   workers = [];
 
   /**
-   * @param {string} script the page's own
+   * @param {string[]} scripts the page's own, and that of helpers
    * @param {object} settings
    * @param {Promise<object>} parts still being unpacked
    * @param {string[]} texts that will be asked for first
    */
-  static async open(script, settings, parts, texts) {
-    const client = new Client(), address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    Object.assign(client, { address, settings, parts, texts });
+  static async open(scripts, settings, parts, texts) {
+    const client = new Client(), addresses = scripts.map((script) => URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
+    Object.assign(client, { addresses, settings, parts, texts });
     client.opened = client.start();
     await client.opened;
     return client;
@@ -31,23 +31,21 @@ export class Client {
       const failed = new Promise((_, reject) => { worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
       this.send("prepare", { settings, texts }).catch(() => null); // while the parts are unpacked
       parts = await Promise.race([this.parts, failed]);
-      const opened = Promise.race([this.send("open", { settings, parts }), failed]);
-      const guided = !settings.shifted.length; // else no pass has two halves
-      const helped = guided && navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4 ? this.getHelp(parts).catch(() => null) : null;
-      await opened;
-      if (helped) helped.then((port) => port && this.worker === worker && this.send("helper", { port }, [port]))
-        .catch(() => null); // it was stopped; without help one worker does all
+      const two = !settings.shifted.length && navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4; // learned passes have no halves
+      const alone = () => this.worker === worker && this.send("alone", {}).catch(() => null);
+      const ports = Array.from({ length: two ? 2 : 1 }, () => this.getHelp(parts, alone));
+      await Promise.race([this.send("open", { settings, parts, ports }, ports), failed]);
     } catch {
       if (worker && this.worker !== worker) return; // stopped while it opened: the next one opens
-      worker?.terminate();
+      for (const each of this.workers.splice(0)) each.terminate();
       this.worker = null;
       this.answer = handler();
       await this.send("open", { settings, parts: parts ?? await this.parts });
     }
   }
 
-  begin() {
-    const worker = new Worker(this.address);
+  begin(script = 0) {
+    const worker = new Worker(this.addresses[script]);
     this.workers.push(worker);
     return worker;
   }
@@ -64,14 +62,11 @@ export class Client {
     this.opened = this.start();
   }
 
-  /** A second worker that takes half of the work; the port to it. */
-  async getHelp({ wasm, graph, adapted, weights }) {
-    const worker = this.begin(), { port1, port2 } = new MessageChannel();
-    await new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }) => (data.error ? reject(new Error(data.error)) : resolve());
-      worker.onerror = reject;
-      worker.postMessage({ id: 0, call: "help", parts: { wasm, graph, adapted, weights }, names: this.settings.weights, port: port2 }, [port2]);
-    });
+  /** The port to a worker that predicts; `failed` is called where it cannot. */
+  getHelp({ wasm, graph, adapted, weights }, failed) {
+    const worker = this.begin(1), { port1, port2 } = new MessageChannel(), { weights: names, shifted } = this.settings;
+    worker.onerror = failed;
+    worker.postMessage({ parts: { wasm, graph, adapted, weights }, names, shifted, port: port2 }, [port2]);
     return port1;
   }
 

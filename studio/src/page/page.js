@@ -39,8 +39,8 @@ class Page {
     this.selected = 0;
     this.time = 0;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
-    const script = $("script").textContent, parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
-    const opened = Client.open(script, this.settings, parts, texts); // its workers begin beside all that follows
+    const scripts = ["script", "helper"].map((id) => $(id).textContent), parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
+    const opened = Client.open(scripts, this.settings, parts, texts); // its workers begin beside all that follows
     this.openStage();
     this.timeline = new Timeline($("timeline"), this);
     this.bind();

@@ -1,0 +1,13 @@
+// A worker that predicts for the one that leads, and does nothing else. It has a script of its own: in Firefox
+// WebAssembly became two hundred times as slow in a thread that had searched a long string (docs/studio.md).
+
+import { Denoiser } from "./model/denoiser.js";
+
+self.onmessage = ({ data: { parts, names, shifted, port } }) => {
+  const denoiser = new Denoiser(parts, names, shifted);
+  denoiser.session(parts.adapted ? "adapted" : "graph", shifted.length > 0).catch(() => null); // while the sentence is read
+  port.onmessage = async ({ data: { id, args } }) => {
+    try { port.postMessage({ id, result: await denoiser.predict(...args) }); }
+    catch (error) { port.postMessage({ id, error: String(error) }); }
+  };
+};
