@@ -95,9 +95,10 @@ def test_avatars_are_moved_and_nothing_else_becomes_one(walk: Path, tmp_path: Pa
     for path in (folder / "walk.vrm", moved):
         assert GlbFile.read(path).document["extensions"] == extensions
         assert differences(stroll(), read_motion(path, fps=None))[0] < 1e-4
-    (folder / "walk.bvh").unlink()
-    assert run(folder, tmp_path / "back", "--format", "npz").exit_code == 0
-    assert differences(stroll(), read_motion(tmp_path / "back" / "walk.npz", fps=None))[0] < 1e-4
+    assert run(folder / "walk.vrm", tmp_path / "back.npz").exit_code == 0
+    assert differences(stroll(), read_motion(tmp_path / "back.npz", fps=None))[0] < 1e-4
+    assert run(folder, tmp_path / "back", "--format", "npz").exit_code == 0  # avatars stay out
+    assert [path.name for path in (tmp_path / "back").glob("*.npz")] == ["walk.npz"]
 
 
 def test_folders_keep_their_shape_and_faults_do_not_stop_the_rest(

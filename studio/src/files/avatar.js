@@ -2,7 +2,7 @@
 // and of write_glb_character in src/shared/formats/writers/glb.py.
 
 import { add, apply, continuous, multiply, norm, quaternionOf, scale, sub, transposed } from "../body/rotations.js";
-import { FEET, INDEX, JOINTS, kinematics, LEG_LENGTH, LEGS, pose, REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT, SKELETON } from "../body/skeleton.js";
+import { INDEX, JOINTS, kinematics, LEG_LENGTH, LEGS, pose, REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT, SKELETON } from "../body/skeleton.js";
 import { orDamaged, treeOf } from "./clip.js";
 import { packed, readGlb } from "./glb.js";
 import { corrections, legLength, lineOf, mappingOf, restFrame } from "./retarget.js";
@@ -15,8 +15,9 @@ const middle = (places, [a, b]) => scale(add(places[a], places[b]), 0.5);
 /** The avatar in a file, and whether that is all that is in it; null where it brings no body but our mannequin. @param {object[]} profiles names of joints */
 export function readAvatar(name, bytes, profiles) {
   return orDamaged(() => {
-    const vrm = /\.vrm$/i.test(name), { skins, animations, asset } = vrm || /\.glb$/i.test(name) ? readGlb(bytes).document : {}, alone = vrm || !animations?.length;
-    if (!vrm && (!skins?.length || asset?.generator === OURS)) return null;
+    if (!/\.(vrm|glb)$/i.test(name)) return null;
+    const { skins, animations, asset } = readGlb(bytes).document, alone = !animations?.length;
+    if (!/\.vrm$/i.test(name) && (!skins?.length || asset?.generator === OURS)) return null;
     try {
       return { avatar: new Avatar(bytes, profiles), alone };
     } catch (error) {
@@ -90,6 +91,12 @@ class Avatar {
   /** The avatar's file again, mesh and all, with a motion as its only animation. */
   write(motion) {
     const { document, data } = structuredClone({ document: this.document, data: this.data }), { frames, fps } = motion;
+    for (const name of ["accessors", "bufferViews"]) document[name] ??= [];
+    document.buffers ??= [{}];
+    for (const joint of [...this.players.keys(), this.mover]) { // what moves may have no matrix
+      const node = this.tree.order[joint], { matrix, ...pose } = this.tree.nodes[node];
+      if (matrix) document.nodes[node] = pose;
+    }
     const poses = Array.from({ length: frames }, (_, t) => this.posed(pose(motion, t))), pieces = [data];
     let length = data.length;
     const put = (values, type, bounds = {}) => {

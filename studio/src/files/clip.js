@@ -6,13 +6,13 @@ import { FPS } from "../body/skeleton.js";
 import { readGlb } from "./glb.js";
 import { retarget } from "./retarget.js";
 
-const MAX_JOINTS = 1000, MAX_VALUE = 1e7, MAX_RATE = 2000, MAX_FRAMES = 1e6, EVEN = 1e-3, IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+const MAX_JOINTS = 1000, MAX_NODES = 10000, MAX_VALUE = 1e7, MAX_RATE = 2000, MAX_FRAMES = 1e6, EVEN = 1e-3, IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 const READ = "This animation is stored in a way the studio does not read.";
 
 /** A motion of a file. @param {object[]} profiles names of joints, see configs/skeletons.yaml */
 export function readClip(name, bytes, profiles) {
   return orDamaged(() => {
-    if (/\.(glb|vrma)$/i.test(name)) return retarget(glbClip(bytes), profiles);
+    if (/\.(glb|vrma|vrm)$/i.test(name)) return retarget(glbClip(bytes), profiles);
     if (/\.bvh$/i.test(name)) return retarget(bvhClip(new TextDecoder().decode(bytes)), profiles);
     throw new Error("Only .bvh, .glb, .vrma and .vrm can be opened.");
   });
@@ -72,9 +72,12 @@ function bvhClip(text) {
 
 /** The nodes of a file as joints whose axes are the world's at rest, parents first: their nodes, names, parents, offsets, and their own axes and sizes at rest. */
 export function treeOf({ nodes: raw = [], extensions = {} }) {
-  if (raw.length > MAX_JOINTS) throw new Error(`This file has more than ${MAX_JOINTS} joints.`);
+  if (raw.length > MAX_NODES) throw new Error(`This file has more than ${MAX_NODES} nodes.`);
   const nodes = raw.map(posed), above = new Array(nodes.length).fill(-1), order = [];
-  nodes.forEach(({ children = [] }, node) => children.forEach((child) => { above[child] = node; }));
+  nodes.forEach(({ children = [] }, node) => children.forEach((child) => {
+    if (above[child] >= 0) throw new Error("This file is damaged, one of its nodes has two parents; export it again.");
+    above[child] = node;
+  }));
   const visit = (node) => { order.push(node); (nodes[node].children ?? []).forEach(visit); };
   above.forEach((parent, node) => { if (parent < 0) visit(node); });
   const place = new Map(order.map((node, index) => [node, index])), bones = bonesOf(extensions), rest = [], sizes = [];

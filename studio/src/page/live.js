@@ -52,7 +52,7 @@ class Live {
       ended.abort();
       page.live = null;
       this.rest(false);
-      if (this.made) {
+      if (this.at >= 1) {
         page.takeClip(this.shown, "what was live");
         page.seek(page.seconds);
       } else {

@@ -555,10 +555,11 @@ class Page {
       if (file.size > 64 << 20) throw new Error("The file is larger than 64 MB.");
       const bytes = new Uint8Array(await file.arrayBuffer().catch(() => { throw new Error("It cannot be read; of a folder, drop one of its clips."); }));
       const found = readAvatar(file.name, bytes, this.settings.profiles);
+      if (this.live) return; // it began while the file was read
       if (found) this.offerBody(found.avatar, file.name);
       if (found?.alone) {
         await this.chooseBody("avatar");
-        this.tell(`${file.name} moves now. GLB files and films show it; BVH and VRMA hold the motion alone.`);
+        if (this.worn === found.avatar) this.tell(`${file.name} moves now. GLB files and films show it; BVH and VRMA hold the motion alone.`);
         return;
       }
       this.takeClip(readClip(file.name, bytes, this.settings.profiles), file.name);
@@ -580,13 +581,13 @@ class Page {
   /** What moves on the stage, in films and in GLB files: the mannequin, or that avatar. */
   async chooseBody(which) {
     const body = which ? this.avatar : null;
+    this.worn = body;
+    $("body").value = which;
     try {
-      if (body !== this.worn) await this.stage?.wear(body);
-      this.worn = body;
+      await this.stage?.wear(body);
     } catch (error) {
-      throw new Error(`It cannot be drawn: ${error.message}`);
-    } finally {
-      $("body").value = this.worn ? "avatar" : "";
+      if (this.worn === body) this.chooseBody("");
+      throw new Error(`It cannot be drawn: ${error instanceof TypeError ? "the file is damaged." : error.message}`);
     }
   }
 
@@ -629,8 +630,12 @@ class Page {
   }
 
   save(kind) {
-    download(new Blob([this.bytes(kind)], { type: kind === "bvh" ? "text/plain" : "model/gltf-binary" }), this.fileName(kind));
-    this.tell(`Saved ${this.fileName(kind)}.`);
+    try {
+      download(new Blob([this.bytes(kind)], { type: kind === "bvh" ? "text/plain" : "model/gltf-binary" }), this.fileName(kind));
+      this.tell(`Saved ${this.fileName(kind)}.`);
+    } catch (error) {
+      this.tell(`It cannot be saved: ${error.message}`, "error");
+    }
   }
 
   async film() {

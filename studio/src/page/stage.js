@@ -80,7 +80,7 @@ export class Stage {
 
   /** Show motions side by side, one of them chosen. */
   show(motions, chosen) {
-    while (this.bodies.length > motions.length) this.scene.remove(this.bodies.pop().mesh);
+    while (this.bodies.length > motions.length) this.remove(this.bodies.pop());
     while (this.bodies.length < motions.length) this.bodies.push(this.newBody());
     this.motions = motions;
     this.chosen = chosen;
@@ -88,10 +88,16 @@ export class Stage {
     this.placeAt(this.time);
   }
 
-  /** Show an avatar in place of the mannequin, or that again for null. Throws where it cannot be drawn. */
+  remove({ mesh }) {
+    this.scene.remove(mesh);
+    mesh.traverse(({ skeleton }) => skeleton?.dispose());
+  }
+
+  /** Show an avatar in place of the mannequin, or that again for null, unless another is wished for before it can be drawn. Throws where it cannot. */
   async wear(avatar) {
-    const worn = avatar && await drawn(avatar);
-    for (const { mesh } of this.bodies.splice(0)) this.scene.remove(mesh);
+    const wish = this.wish = Symbol(), worn = avatar && await drawn(avatar);
+    if (this.wish !== wish) { if (worn) dispose(worn.scene); return; }
+    for (const body of this.bodies.splice(0)) this.remove(body);
     if (this.worn) dispose(this.worn.scene);
     this.worn = worn;
     if (this.motions) this.show(this.motions, this.chosen);
@@ -313,7 +319,7 @@ function drawnByProcessor() {
 function coarser(geometry) {
   const { position, normal, color, skinIndex, skinWeight } = geometry.attributes, cells = new Map(), cellOf = [];
   for (let v = 0; v < position.count; v++) {
-    const key = [position.getX(v), position.getY(v), position.getZ(v)].map((x) => Math.round(x / CELL)).join() + skinIndex.getX(v);
+    const key = [position.getX(v), position.getY(v), position.getZ(v)].map((x) => Math.round(x / CELL)).join() + `,${skinIndex.getX(v)}`;
     if (!cells.has(key)) cells.set(key, []);
     cells.get(key).push(v);
     cellOf.push(key);

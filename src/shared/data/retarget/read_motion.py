@@ -31,7 +31,7 @@ from .mapping import GUESSED, SkeletonMapping, load_mappings, mapping_of
 from .to_canonical import leg_length, retarget
 
 FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".vrma", ".npy")
-ENDINGS = (*FOLDER_ENDINGS, ".vrm", ".csv")  # in a folder most often avatars at rest, captions
+ENDINGS = (*FOLDER_ENDINGS, ".csv")  # in a folder it may hold captions
 
 
 @dataclass(frozen=True, eq=False)

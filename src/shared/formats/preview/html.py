@@ -14,11 +14,12 @@ import io
 import json
 import re
 from collections.abc import Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from functools import lru_cache
 from importlib.resources import files
 from itertools import zip_longest
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -151,10 +152,17 @@ _begun: dict[tuple[Path, float], Future[str]] = {}  # of songs and seconds, by `
 
 
 def begin_song_uri(path: Path, seconds: float) -> None:
-    """Begin with what `song_uri` will be asked for, beside whatever is done until then."""
-    beside = ThreadPoolExecutor(1)
-    _begun[path, seconds] = beside.submit(_song_uri, path, seconds)
-    beside.shutdown(wait=False)
+    """Begin with what `song_uri` will be asked for, beside whatever is done until then; who ends
+    the program sooner does not wait for it."""
+    begun = _begun[path, seconds] = Future()
+
+    def encode() -> None:
+        try:
+            begun.set_result(_song_uri(path, seconds))
+        except BaseException as error:
+            begun.set_exception(error)
+
+    Thread(target=encode, daemon=True).start()
 
 
 def song_uri(path: str | Path, seconds: float) -> str:

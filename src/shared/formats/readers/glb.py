@@ -19,7 +19,7 @@ from ...errors import UserError, printable
 from ...io.arrays import MAX_VALUES
 from ...io.files import atomic_write
 from ..limits import FRAME_RATES, MAX_FRAMES, MAX_JOINTS, MAX_VALUE, read_bytes
-from ..rig import Rig, RigClip, quaternions_to_matrices
+from ..rig import Rig, RigClip, matrices_to_quaternions, quaternions_to_matrices
 
 MAX_JSON = 32 << 20
 VERTEX_DATA, INDEX_DATA = 34962, 34963  # bufferView.target
@@ -275,6 +275,20 @@ def rest_matrix(node: dict[str, Any]) -> np.ndarray:
     if not np.isfinite(matrix).all():
         raise GlbError(f"node {node.get('name')!r} is at an impossible place")
     return matrix
+
+
+def without_matrix(node: dict[str, Any]) -> dict[str, Any]:
+    """The same node, its pose as translation, rotation and scale."""
+    if "matrix" not in node:
+        return node
+    matrix = rest_matrix(node)
+    (turn,), (size,) = _split(matrix[None, :3, :3])
+    pose = {
+        "translation": matrix[:3, 3].tolist(),
+        "rotation": matrices_to_quaternions(turn)[[1, 2, 3, 0]].tolist(),
+        "scale": [float(size)] * 3,
+    }
+    return {name: value for name, value in node.items() if name != "matrix"} | pose
 
 
 def _compose(translation: np.ndarray, rotation: np.ndarray, scale: np.ndarray) -> np.ndarray:

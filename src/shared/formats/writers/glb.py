@@ -20,7 +20,7 @@ from ...motion.skeleton import NUM_JOINTS
 from ...motion.trajectory import MotionTrajectory
 from ..mannequin import Mannequin, mannequin, side_colours, whole_shares
 from ..preview.trajectory import proxy_body
-from ..readers.glb import INDEX_DATA, VERTEX_DATA, GlbFile, GlbSkeleton
+from ..readers.glb import INDEX_DATA, VERTEX_DATA, GlbFile, GlbSkeleton, without_matrix
 from ..rig import (
     SCHEMES,
     Rig,
@@ -329,8 +329,10 @@ def write_glb_character(skeleton: GlbSkeleton, clip: RigClip, path: str | Path) 
         UserError: the file cannot be written.
     """
     document = dict(skeleton.file.document)
-    for name in ("accessors", "bufferViews"):
+    for name in ("accessors", "bufferViews", "nodes"):
         document[name] = list(document.get(name, []))
+    for node in skeleton.nodes:  # an animated one may have no matrix
+        document["nodes"][node] = without_matrix(document["nodes"][node])
     file = GlbFile(document, bytes(skeleton.file.data))
     keys = animation(
         rescaled(clip, 1.0),

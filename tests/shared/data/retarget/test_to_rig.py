@@ -15,7 +15,7 @@ from src.shared.data.retarget.to_canonical import retarget
 from src.shared.data.retarget.to_rig import Target, read_target, rest_clip, retarget_out
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.readers.bvh import read_bvh
-from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton
+from src.shared.formats.readers.glb import GlbFile, read_glb, read_glb_skeleton, rest_matrix
 from src.shared.formats.registry import write_clip, write_motion
 from src.shared.formats.rig import SCHEMES, Rig, RigClip, SourceClip, canonical_rig
 from src.shared.formats.writers.glb import write_glb_clip
@@ -212,6 +212,20 @@ def test_what_is_no_avatar_is_not_written_as_one(tmp_path: Path) -> None:
         with pytest.raises(UsageError, match=rf"{source.name} is no VRM avatar.*write a \.glb"):
             read_target(source).write(standing(), tmp_path / "moved.vrm")
     assert not (tmp_path / "moved.vrm").exists()
+
+
+def test_joints_whose_pose_is_a_matrix_move_as_well(tmp_path: Path) -> None:
+    """glTF animates no node with a matrix."""
+    path, motion = character(tmp_path / "hero.glb"), random_motion(5, 11, 30.0)
+    plain = read_glb(read_target(path).write(motion, tmp_path / "plain.glb"))
+    file = GlbFile.read(path)
+    for node in file.document["nodes"]:
+        matrix = rest_matrix(node)
+        for name in ("translation", "rotation", "scale"):
+            node.pop(name, None)
+        node["matrix"] = matrix.T.ravel().tolist()
+    moved = read_glb(read_target(file.write(path)).write(motion, tmp_path / "moved.glb"))
+    same_places(moved, plain, 1e-4)
 
 
 def test_a_bvh_skeleton_keeps_names_offsets_orders_and_unit(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import base64
 import io
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from src.shared.errors import UserError
 from src.shared.formats.preview import html as song_media
-from src.shared.formats.preview.html import song_uri
+from src.shared.formats.preview.html import begin_song_uri, song_uri
 from src.shared.io.sound_files import SoundReader
 
 soundfile = pytest.importorskip("soundfile")
@@ -120,3 +121,23 @@ def test_samples_that_are_none_do_not_reach_the_page(tmp_path: Path) -> None:
     played = soundfile.read(io.BytesIO(data))[0]
     assert head == "data:audio/ogg"
     assert np.isfinite(played).all() and np.abs(played).max() < 0.5
+
+
+def test_what_is_begun_beforehand_is_the_same(tmp_path: Path) -> None:
+    path = song(tmp_path / "a.ogg", 3.0)
+    at_once = song_uri(path, 2.0)
+    begin_song_uri(path, 2.0)
+    assert song_uri(path, 2.0) == at_once
+    path.unlink()
+    begin_song_uri(path, 2.0)
+    with pytest.raises(UserError, match=r"a\.ogg"):
+        song_uri(path, 2.0)
+
+
+def test_nobody_waits_for_a_sound_at_the_end(tmp_path: Path) -> None:
+    path = song(tmp_path / "a.wav", 120.0, 44_100)
+    before = set(threading.enumerate())
+    begin_song_uri(path, 120.0)
+    begun = set(threading.enumerate()) - before
+    assert begun and all(thread.daemon for thread in begun)
+    assert song_uri(path, 120.0)
