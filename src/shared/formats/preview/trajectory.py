@@ -7,16 +7,14 @@ reach the floor. Legend: T frames."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...motion.motion import Motion
+from ...motion.rotations import quaternion_exp, quaternion_multiply, quaternion_to_matrix
 from ...motion.skeleton import JOINT_INDEX, LEG_LENGTH, canonical_skeleton
 from ...motion.trajectory import MotionTrajectory, to_motion
-
-if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation
+from ...tensors import torch
 
 PATH = (200, 60, 90)  # colour of the way over the ground
 
@@ -99,9 +97,9 @@ def phase_palette(steps: int = 60) -> np.ndarray:
 ANKLE_HEIGHT = 0.08  # metres, in the rest pose
 MIN_REACH = 0.3  # share of the leg's length that a folded leg keeps
 MAX_LEAN = np.deg2rad(60.0)  # legs are kept upright against so much leaning, no more
-ARMS = {  # degrees about the axis from the T-pose, left side; the right one is mirrored
-    "shoulder": ("z", -72.0),
-    "elbow": ("y", -22.0),
+ARMS = {  # rotation vectors from the T-pose, left side; the right one is mirrored
+    "shoulder": np.deg2rad([0.0, 0.0, -72.0]),
+    "elbow": np.deg2rad([0.0, -22.0, 0.0]),
 }
 
 
@@ -110,41 +108,36 @@ def proxy_body(trajectory: MotionTrajectory, title: str = "") -> Motion:
 
     Contacts are zero: a trajectory has no feet.
     """
-    from scipy.spatial.transform import Rotation  # its import takes longer than a prompt
-
     motion = to_motion(trajectory, text=title)
     quaternions = motion.quaternions.copy()
-    for name, (axis, angle) in ARMS.items():
+    for name, turn in ARMS.items():
         for side, sign in (("l", 1.0), ("r", -1.0)):
-            turn = Rotation.from_euler(axis, sign * angle, degrees=True)
-            quaternions[:, JOINT_INDEX[f"{side}_{name}"]] = _wxyz(turn)
-    pelvis = Rotation.from_quat(quaternions[:, 0][:, [1, 2, 3, 0]])
-    upright = _upright(pelvis)
+            quaternions[:, JOINT_INDEX[f"{side}_{name}"]] = _turn(sign * turn)
+    pelvis = torch.as_tensor(quaternions[:, 0].astype(np.float64))
+    world = quaternion_to_matrix(pelvis).numpy()
+    upright = _upright(world)
     for side in ("l", "r"):
         hip, knee, ankle = (JOINT_INDEX[f"{side}_{part}"] for part in ("hip", "knee", "ankle"))
-        height = trajectory.position[:, 1] + pelvis.apply(canonical_skeleton().offsets[hip])[:, 1]
+        height = trajectory.position[:, 1] + (world @ canonical_skeleton().offsets[hip])[:, 1]
         bend = np.arccos(np.clip((height - ANKLE_HEIGHT) / LEG_LENGTH, MIN_REACH, 1.0))
-        quaternions[:, hip] = _wxyz(upright * _pitch(-bend))
-        quaternions[:, knee] = _wxyz(_pitch(2 * bend))
-        quaternions[:, ankle] = _wxyz(_pitch(-bend))
+        pitch = bend[:, None] * np.array([1.0, 0.0, 0.0])
+        quaternions[:, hip] = quaternion_multiply(
+            torch.as_tensor(upright), torch.as_tensor(_turn(-pitch))
+        )
+        quaternions[:, knee], quaternions[:, ankle] = _turn(2 * pitch), _turn(-pitch)
     return replace(motion, quaternions=quaternions)
 
 
-def _upright(pelvis: "Rotation") -> "Rotation":
-    """Rotations [T] in the pelvis' frame that take its lean back, up to `MAX_LEAN`."""
-    up = pelvis.inv().apply(np.array([0.0, 1.0, 0.0]))  # world's up, in the pelvis' frame
+def _upright(pelvis: np.ndarray) -> np.ndarray:
+    """Quaternions [T,4] in the frame of the pelvis [T,3,3] that take its lean back, up to
+    `MAX_LEAN`."""
+    up = pelvis[:, 1]  # the world's, in the pelvis' frame
     axis = np.stack((up[:, 2], np.zeros(len(up)), -up[:, 0]), -1)  # +Y × up
     sine = np.linalg.norm(axis, axis=-1, keepdims=True)
     angle = np.arctan2(sine, up[:, 1:2])
-    return type(pelvis).from_rotvec(axis / np.maximum(sine, 1e-9) * np.minimum(angle, MAX_LEAN))
+    return _turn(axis / np.maximum(sine, 1e-9) * np.minimum(angle, MAX_LEAN))
 
 
-def _pitch(angle: np.ndarray) -> "Rotation":
-    """Turns [T] about +X."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_rotvec(angle[:, None] * np.array([1.0, 0.0, 0.0]))
-
-
-def _wxyz(rotation: "Rotation") -> np.ndarray:
-    return np.asarray(rotation.as_quat()[..., [3, 0, 1, 2]], dtype=np.float32)
+def _turn(vector: np.ndarray) -> np.ndarray:
+    """Quaternions [...,4] of rotation vectors [...,3]."""
+    return np.asarray(quaternion_exp(torch.as_tensor(vector)).numpy())
