@@ -74,7 +74,7 @@ class Avatar {
     return { world, positions };
   }
 
-  /** Of a pose of ours (`kinematics`): rotations [w, x, y, z] by node, of those that play ours, and the place of the one that travels. */
+  /** Of a pose of ours (`kinematics`): rotations [w, x, y, z] by node, of those that play ours, the place of the one that travels, and of the hips in the world. */
   posed({ positions: ours, world: turns }) {
     const { tree, mover } = this, { parents, offsets, order, frame, rest } = tree, { world, positions } = this.turned(turns);
     const above = (joint) => (parents[joint] < 0 ? IDENTITY : world[parents[joint]]);
@@ -85,7 +85,7 @@ class Avatar {
       return [order[joint], quaternionOf(multiply(multiply(transposed(frame(joint)), local), rest[joint]))];
     });
     const place = apply(transposed(frame(mover)), add(offsets[mover], step)).map((x) => x / tree.size(mover));
-    return { rotations, node: order[mover], place };
+    return { rotations, node: order[mover], place, hips };
   }
 
   /** The avatar's file again, mesh and all, with a motion as its only animation. */

@@ -32,7 +32,7 @@ class Live {
   }
 
   async run() {
-    const { page } = this, { playing, scene: { seed } } = page, ended = new AbortController();
+    const { page } = this, { seed } = page.scene, ended = new AbortController();
     this.rest(true);
     page.setPlaying(false);
     page.tell("It begins …");
@@ -54,12 +54,12 @@ class Live {
       this.rest(false);
       if (this.at >= 1) {
         page.takeClip(this.shown, "what was live");
-        page.seek(page.seconds);
+        page.seek(page.seconds); // it stays where it stopped
+        page.stage?.resetView();
       } else {
         page.showMotions();
         page.tell("Stopped.");
       }
-      page.setPlaying(playing);
     }
   }
 

@@ -88,6 +88,11 @@ export class Stage {
     this.placeAt(this.time);
   }
 
+  /** Of the body that is shown, by the mannequin's. */
+  get size() {
+    return this.worn?.avatar.size ?? 1;
+  }
+
   remove({ mesh }) {
     this.scene.remove(mesh);
     mesh.traverse(({ skeleton }) => skeleton?.dispose());
@@ -99,8 +104,10 @@ export class Stage {
     if (this.wish !== wish) { if (worn) dispose(worn.scene); return; }
     for (const body of this.bodies.splice(0)) this.remove(body);
     if (this.worn) dispose(this.worn.scene);
+    const { size } = this;
     this.worn = worn;
     if (this.motions) this.show(this.motions, this.chosen);
+    if (this.size !== size) this.resetView();
   }
 
   newBody() {
@@ -118,9 +125,10 @@ export class Stage {
       mesh,
       chest: own(avatar.tree.order[avatar.joints.spine3 ?? avatar.joints.pelvis]),
       place: (turns, root) => {
-        const { rotations, node, place } = avatar.posed(kinematics(turns.map(({ x, y, z, w }) => matrixOf([w, x, y, z])), root));
+        const { rotations, node, place, hips } = avatar.posed(kinematics(turns.map(({ x, y, z, w }) => matrixOf([w, x, y, z])), root));
         for (const [each, [w, x, y, z]] of rotations) own(each).quaternion.set(x, y, z, w);
         own(node).position.set(...place);
+        return hips;
       },
     };
   }
@@ -146,6 +154,7 @@ export class Stage {
       place: (turns, root) => {
         turns.forEach((turn, joint) => bones[joint].quaternion.copy(turn));
         bones[0].position.set(...root);
+        return root;
       },
     };
   }
@@ -165,11 +174,11 @@ export class Stage {
         turns.push(new Quaternion().slerpQuaternions(a, b, share));
       }
       const [x, y, z] = [0, 1, 2].map((k) => root[first * 3 + k] + share * (root[second * 3 + k] - root[first * 3 + k]));
-      place(turns, [x, y, z]);
+      const [ownX, , ownZ] = place(turns, [x, y, z]);
       mesh.position.x = this.offsets[i];
       if (i === this.chosen) {
-        this.ring.position.set(x + this.offsets[i], 0.006, z);
-        this.focus = new Vector3(x + this.offsets[i], 0, z);
+        this.ring.position.set(ownX + this.offsets[i], 0.006, ownZ);
+        this.focus = new Vector3(ownX, 0, ownZ); // without what sets takes apart
       }
     });
     this.ring.visible = this.bodies.length > 1;
@@ -209,13 +218,12 @@ export class Stage {
 
   resetView(fromAbove = false) {
     const more = Math.max(0, (this.bodies?.length ?? 1) - 1);
-    const target = this.focus ? this.focus.clone().setY(0.85) : new Vector3(0, 0.85, 0);
-    if (this.bodies?.length > 1) target.x = 0;
+    const target = (this.focus?.clone() ?? new Vector3()).setY(0.85 * this.size);
     this.controls.target.copy(target);
     if (fromAbove) this.camera.position.set(target.x, 11, target.z - 3);
     else {
       const half = more * SPACING / 2 + 0.9, away = half / (Math.tan((this.camera.fov * Math.PI) / 360) * this.camera.aspect);
-      this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).setLength(Math.max(4.1, away)));
+      this.camera.position.copy(target).add(new Vector3(1.6 / (1 + more), 0.9, 3.7).setLength(Math.max(4.1 * this.size, away)));
     }
     this.controls.update();
     this.stale = true;
@@ -231,9 +239,7 @@ export class Stage {
   /** Draw what has changed; the camera goes along with the chosen body; `busy`: what is computed meanwhile makes frames late. Without a graphics card a picture costs what a prediction does. */
   draw(follow, step, busy) {
     if (follow && this.focus) {
-      const aim = this.focus.clone();
-      if (this.bodies.length > 1) aim.x = this.controls.target.x;
-      const way = aim.setY(this.controls.target.y).sub(this.controls.target).multiplyScalar(1 - Math.exp(-4 * step));
+      const way = this.focus.clone().setY(this.controls.target.y).sub(this.controls.target).multiplyScalar(1 - Math.exp(-4 * step));
       this.controls.target.add(way);
       this.camera.position.add(way);
     }

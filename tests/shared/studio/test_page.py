@@ -941,6 +941,8 @@ def test_a_resting_stage_is_drawn_where_its_camera_moves_alone(page: Path, tmp_p
             "new WheelEvent('wheel', { deltaY: 120, clientX: 300, clientY: 80, cancelable: true }))"
         )
         shown.wait("drawn > 0", 10)
+        shown.evaluate("studio.stage.controls.target.x = 70.6; studio.stage.stale = true")
+        shown.wait("studio.stage.grid.position.x === 71", 10)  # who walks far has a floor
 
 
 def avatar(path: Path, kind: str = "") -> Path:
@@ -955,7 +957,7 @@ def avatar(path: Path, kind: str = "") -> Path:
     nodes = document["nodes"]
     del document["animations"]
     document["asset"]["generator"] = "another"
-    world = {23: rest_matrix(nodes[23])}
+    world, mesh = {23: rest_matrix(nodes[23])}, np.eye(4)
     if kind == "VRM":
         about = np.diag([-1.0, 1, -1, 1])
         nodes[23] = {
@@ -963,10 +965,11 @@ def avatar(path: Path, kind: str = "") -> Path:
             "children": [0],
             "matrix": (about @ world[23]).T.ravel().tolist(),
         }
-        world[23] = about @ world[23]
+        world[23], mesh = about @ world[23], about
     for node, parent in enumerate([23, *motion_clip(still()).parents[1:]]):
         world[node] = world[parent] @ rest_matrix(nodes[node])
-    inverse = [np.linalg.inv(world[node]).T.ravel() for node in document["skins"][0]["joints"]]
+    joints = document["skins"][0]["joints"]
+    inverse = [(np.linalg.inv(world[node]) @ mesh).T.ravel() for node in joints]
     document["skins"][0]["inverseBindMatrices"] = file.accessor(np.float32(inverse))
     if kind:
         names = [name[0].lower() + name[1:] for name in SCHEMES["unity"]]
@@ -1182,6 +1185,16 @@ def test_an_avatar_is_drawn_with_its_pictures(page: Path, tmp_path: Path) -> Non
             for node in (JOINT_INDEX["r_wrist"], JOINT_INDEX["r_ankle"])
         )
         assert 0 < foot < 0.3 and hand > 1  # it waves
+        # a smaller one goes less far, and the camera with it
+        shown.evaluate("studio.worn.size *= 0.5; studio.seek(1.5); studio.stage.resetView()")
+        aim = "[studio.stage.focus.x, studio.stage.focus.z, studio.stage.controls.target.y]"
+        hips = "skin.parent.getObjectByName('J_0')"
+        x, z, height = shown.evaluate(aim)
+        shown.evaluate(f"{hips}.updateWorldMatrix(true, false)")
+        away = shown.evaluate(f"{hips}.matrixWorld.elements[12] - studio.stage.offsets[0]")
+        deep = shown.evaluate(f"{hips}.matrixWorld.elements[14]")
+        assert abs(away - x) < 0.15 and abs(deep - z) < 0.15
+        assert height == pytest.approx(0.85 * shown.evaluate("studio.worn.size"))
         shown.evaluate("studio.chooseBody('')")
         assert shown.evaluate("studio.stage.bodies[0].chest.parent.type") == "Bone"
         coarse = "studio.stage.bodies[0].mesh.geometry.index.count / 3"
@@ -1195,6 +1208,3 @@ def test_an_avatar_is_drawn_with_its_pictures(page: Path, tmp_path: Path) -> Non
             body_of(shown)[-1] == "" and shown.evaluate("studio.worn ?? studio.stage.worn") is None
         )
         assert shown.problems == []
-
-        shown.evaluate("studio.stage.controls.target.x = 70.6; studio.stage.stale = true")
-        shown.wait("studio.stage.grid.position.x === 71", 10)  # who walks far has a floor
