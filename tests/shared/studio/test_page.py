@@ -33,7 +33,7 @@ from src.shared.pipelines.path import DrawnPath
 from src.shared.pipelines.stream import Passage, met
 from src.shared.pipelines.timeline import Timeline
 from src.shared.studio.page import write_studio
-from tests.shared.data.retarget.test_to_rig import character, same_places
+from tests.shared.data.retarget.test_to_rig import as_matrices, character, same_places
 from tests.shared.formats.chromium_pipe import Browser, chromium
 from tests.shared.formats.firefox_marionette import Firefox, firefox
 from tests.shared.formats.glb_reader import Glb
@@ -993,17 +993,6 @@ def body_of(browser: Browser) -> list[str]:
     """The bodies that can be chosen, and the one that is."""
     body = "document.getElementById('body')"
     return list(browser.evaluate(f"[...[...{body}.options].map((o) => o.text), {body}.value]"))
-
-
-def as_matrices(path: Path) -> Path:
-    """The same file, each node's pose as a matrix."""
-    file = GlbFile.read(path)
-    for node in file.document["nodes"]:
-        matrix = rest_matrix(node)
-        for name in ("translation", "rotation", "scale"):
-            node.pop(name, None)
-        node["matrix"] = matrix.T.ravel().tolist()
-    return file.write(path)
 
 
 @BROWSER
