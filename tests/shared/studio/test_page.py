@@ -1114,6 +1114,7 @@ def test_other_readers_see_what_the_command_line_makes(
 
 
 @BROWSER
+@pytest.mark.slow
 def test_a_film_shows_what_is_played(page: Path, tmp_path: Path) -> None:
     av = pytest.importorskip("av")
     ready = "typeof studio === 'object' && Boolean(studio.stage)"
