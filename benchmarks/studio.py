@@ -2,13 +2,15 @@
 
     python -m benchmarks.studio --runs 3
     python -m benchmarks.studio --runs 3 --live --steps 2
+    python -m benchmarks.studio --runs 3 --frames
 
 Seconds from the start of loading until the model is there and until the first motion (4 s) is
 shown; *next*, from the wish for another seed until that motion is made. Nothing is drawn, for want
 of WebGL. With `--live`, seconds from each of eight sentences, 2.4 s apart, until a frame shows it,
 and how many times as fast as it passes the motion is made: *changing* with these sentences, all
-that is opened for the first time among it; *steady* with one. Each run is a browser of its own with
-an empty profile.
+that is opened for the first time among it; *steady* with one. With `--frames`, pictures a second of
+one body and of four, drawn by the processor. Each run is a browser of its own with an empty
+profile.
 """
 
 import argparse
@@ -35,17 +37,42 @@ STEADY = f"""(async () => {{
 }})()"""
 
 
+DRAWN = """new Promise((resolve) => {
+    let number = 0;
+    const start = performance.now();
+    const next = () => {
+        const spent = performance.now() - start;
+        if (spent > 5000) resolve((1000 * number) / spent);
+        else { number++; requestAnimationFrame(next); }
+    };
+    requestAnimationFrame(next);
+})"""
+
+
 @contextmanager
-def opened(page: Path) -> Iterator[Browser]:
+def opened(page: Path, *, webgl: bool = False) -> Iterator[Browser]:
     """The page in a browser of its own, its first motion made."""
+    ready = "typeof studio === 'object'"
     with (
         tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
-        Browser(page.as_uri(), Path(profile), ready="typeof studio === 'object'") as browser,
+        Browser(page.as_uri(), Path(profile), (1280, 800), ready, webgl=webgl) as browser,
     ):
         browser.wait("studio.timings?.first !== undefined", 180)
         browser.evaluate("studio.history.change({ takes: 1 })")
         browser.wait("!studio.making")
         yield browser
+
+
+def frames(page: Path) -> list[float]:
+    """Pictures a second of one body and of four that walk."""
+    found = []
+    with opened(page, webgl=True) as browser:
+        for takes in (1, 4):
+            scene = f"{{ takes: {takes}, blocks: [{{ text: 'a person walks', seconds: 4 }}] }}"
+            browser.evaluate(f"studio.history.change({scene}); studio.make()")
+            browser.wait("!studio.making && studio.playing")
+            found.append(browser.evaluate(DRAWN))
+    return found
 
 
 def live(page: Path) -> list[float]:
@@ -84,10 +111,13 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--steps", type=int, help="of the page; without it, the model's own")
     parser.add_argument("--live", action="store_true")
+    parser.add_argument("--frames", action="store_true")
     options = parser.parse_args()
     measure, heads = measured, ("loaded", "first", "next")
     if options.live:
         measure, heads = live, ("least", "median", "most", "changing", "steady")
+    elif options.frames:
+        measure, heads = frames, ("one", "four")
     with tempfile.TemporaryDirectory() as folder:
         page = write_studio(Path(folder), steps=options.steps)
         print(f"{page.stat().st_size / 1e6:.1f} MB")

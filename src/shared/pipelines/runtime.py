@@ -137,7 +137,7 @@ class OnnxRuntime:
 
         @lru_cache(STEPS)
         def made(*steps: int) -> dict[str, Tensor]:
-            return dict(zip(times, run(time, t=np.array(steps)), strict=True))
+            return dict(zip(times, run(time, t=np.array(steps, np.int64)), strict=True))
 
         self._made = made  # of the time, which is the same for each window
 

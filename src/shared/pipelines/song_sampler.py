@@ -46,9 +46,8 @@ if TYPE_CHECKING:
 SPARE = 8  # frames at the end that are made and cut off: no neighbour to learn from (ruling 6)
 TAIL = 2  # of them, what the last frames of a song are derived from
 Progress = Callable[[int, int], None]  # frames done, frames in all
-Recall = Callable[
-    [int, int], "MemoryCondition"
-]  # first frame and length of a window, spare included
+# Of a window's first frame and length, spare included.
+Recall = Callable[[int, int], "MemoryCondition"]
 
 
 @dataclass(frozen=True)
