@@ -90,7 +90,7 @@ class Avatar {
 
   /** The avatar's file again, mesh and all, with a motion as its only animation. */
   write(motion) {
-    const { document, data } = structuredClone({ document: this.document, data: this.data }), { frames, fps } = motion;
+    const document = structuredClone(this.document), { data } = this, { frames, fps } = motion;
     for (const name of ["accessors", "bufferViews"]) document[name] ??= [];
     document.buffers ??= [{}];
     for (const joint of [...this.players.keys(), this.mover]) { // what moves may have no matrix

@@ -38,7 +38,6 @@ export class Stage {
     this.controls.addEventListener("change", () => { this.stale = true; });
     this.bodies = [];
     this.shared = meshOf(body);
-    this.coarse = coarser(this.shared.geometry);
     this.addRoom();
     this.paint();
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
@@ -134,7 +133,7 @@ export class Stage {
   }
 
   newMannequin() {
-    const { parents, offsets } = this.shared, geometry = this.lean ? this.coarse : this.shared.geometry;
+    const { parents, offsets } = this.shared, geometry = this.lean ? (this.coarse ??= coarser(this.shared.geometry)) : this.shared.geometry;
     const bones = parents.map((_, joint) => {
       const bone = new Bone();
       bone.position.fromArray(offsets[joint]);

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
 from src.shared.data.phrases.layout import StoredObject, features_path, trajectory_path
@@ -180,6 +181,7 @@ def _fetch(data: Path, cache: Path, log: Path, barrier: Any) -> None:
         return read(path)
 
     dataset.store.remote.read = logged  # type: ignore[method-assign]
+    torch.set_num_threads(1)  # as workers of a DataLoader begin: alone, as a pool is renewed here
     barrier.wait()
     assert len(list(dataset.epoch())) == len(LENGTHS)
 
