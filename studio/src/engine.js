@@ -45,6 +45,11 @@ export class Engine {
     return this.stream.next(text);
   }
 
+  /** What a body that goes on is to do instead, also while what comes next is made. */
+  say({ text }) {
+    if (this.stream) this.stream.text = text;
+  }
+
   warning({ text }) {
     return this.director.warning(text);
   }

@@ -88,7 +88,8 @@ def stream_features(
         window: frames at most, the shared ones among them.
         overlap: frames O that a window shares with the one before.
         ahead: frames made beyond a passage: the next one begins with them if it has the same text;
-            else they are dropped. Not for passages with a constraint or a `miss`.
+            else they are dropped. A text that goes on has all that its window holds. Not for
+            passages with a constraint or a `miss`.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
@@ -122,11 +123,13 @@ def stream_features(
             yield piece
             continue
         lucky: list[int] = []  # the seed of the repetition before
-        beyond = ahead if constraint is None and passage.miss is None else 0
         widest = min(window, passage.window or window)
         new, said = passage.text != said, passage.text
         apart = new and stands(before, generator.card.fps) and generator.begins_standing(said)
         shared = before[:0] if apart else before
+        beyond = ahead if constraint is None and passage.miss is None else 0
+        if beyond and not new:
+            beyond = max(beyond, widest - len(shared) - passage.frames)
         for length in window_lengths(passage.frames, len(shared), widest, overlap):
             start = made - len(shared)
             given = None if constraint is None else constraint(start, made + length)

@@ -135,7 +135,7 @@ export class Director {
     let best = null, missed = null;
     for (const trial of retrySeeds(seed)) {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
-      const features = await this.sampler.sample(said, frames, trial, null, guidance);
+      const features = await this.sampler.sample(said, frames, trial, null, { guidance });
       removeDrift(features, this.steady(said));
       const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), [said]);
       options.told?.(frames);

@@ -16,14 +16,14 @@ export class Sampler {
   }
 
   /**
-   * Raw features [T,R,C].
+   * Raw features [T,R,C]; null where they are no longer wanted.
    * @param {string} prompt
    * @param {number} frames
    * @param {bigint|number} seed
    * @param {{known: Uint8Array, shown: Uint8Array, values: Float32Array}|null} given
-   * @param {number} guidance; learned steps want none
+   * @param {{guidance?: number, gone?: function}} options guidance: learned steps want none; gone: asked before each step
    */
-  async sample(prompt, frames, seed, given = null, guidance = this.settings.guidance) {
+  async sample(prompt, frames, seed, given = null, { guidance = this.settings.guidance, gone } = {}) {
     const { mean, std, schedule, nullText, tags, shifted } = this.settings, learned = shifted.length > 0;
     const size = frames * WIDTH, start = noise(seed, prompt, size), nothing = new Uint8Array(size);
     const shown = given ? given.shown.map((is, i) => is && given.known[i]) : nothing;
@@ -32,6 +32,7 @@ export class Sampler {
     const text = this.tower.encode(prompt), opened = this.opened(text);
     let x = start.slice(), before = null;
     for (let i = 0; i < schedule.length; i++) {
+      if (gone?.()) return null;
       const [step, alphaBar] = schedule[i], next = i + 1 < schedule.length ? schedule[i + 1][1] : 1;
       const a = Math.sqrt(alphaBar), s = Math.sqrt(1 - alphaBar);
       let input = x;

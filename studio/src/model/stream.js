@@ -75,10 +75,10 @@ export async function streamFeatures(...all) {
 /**
  * Raw features of passages { text, frames, window?, miss?, afresh? } in pieces that never change again.
  * @param {Sampler} sampler
- * @param {Iterable<object>} passages taken one by one, each when the motion before it is made
+ * @param {Iterable<object>} passages taken one by one, each when the motion before it is made; one of one window that is `gone()` meanwhile was none
  * @param {bigint|number} seed
  * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, guidance?: number, told?: function}} options
- *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops; told: called with the frames that are done
+ *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops, all that a window holds of a text that goes on; told: called with the frames that are done
  */
 async function* featurePieces(sampler, passages, seed, options = {}) {
   const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, guidance, told } = options;
@@ -89,16 +89,18 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     told?.(made);
     return piece;
   };
-  for (const passage of passages) {
+  next: for (const passage of passages) {
     if (passage.text === said && framesOf(spare) >= passage.frames) {
       const piece = cut(spare, 0, passage.frames);
       spare = cut(spare, passage.frames);
       yield goOn(piece);
       continue;
     }
-    const beyond = constraint || passage.miss ? 0 : ahead;
+    const earlier = said, fresh = passage.text !== said;
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
-    let shared = passage.afresh && passage.text !== said && stands(before) ? new Float32Array() : before;
+    let shared = passage.afresh && fresh && stands(before) ? new Float32Array() : before;
+    let beyond = constraint || passage.miss ? 0 : ahead;
+    if (beyond && !fresh) beyond = Math.max(beyond, window - framesOf(shared) - passage.frames);
     said = passage.text;
     for (const length of windowLengths(passage.frames, framesOf(shared), Math.min(window, passage.window ?? window), overlap)) {
       const kept = framesOf(shared), start = made - kept;
@@ -110,7 +112,8 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
       const somethingKnown = kept > 0 || constraint;
       let best = null, least = Infinity, chosen = null;
       for (const trial of [...lucky, ...retrySeeds(derivedSeed(seed, number))]) {
-        const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, guidance);
+        const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, { guidance, gone: passage.gone });
+        if (!features) { said = earlier; continue next; }
         let piece = cut(blendBoundaries(cut(features, 0, frames), known.known), kept);
         if (!kept && before.length) piece = met(before, piece, known.known);
         const found = passage.miss ? passage.miss(joinArrays([own, piece])) : 0;
@@ -145,7 +148,7 @@ export class MotionStream {
     for (;;) {
       const { text } = this;
       if (this.textAt(this.made) !== text) this.texts.push([this.made, text]);
-      yield { text, frames: LIVE, afresh: this.afresh(text) };
+      yield { text, frames: LIVE, afresh: this.afresh(text), gone: () => this.text !== text };
     }
   }
 

@@ -41,8 +41,7 @@ class Live {
     const timer = setInterval(() => this.tick(), 1000 / FPS); // a stage that is drawn ticks as well
     try {
       for (let begin = true; !this.ended; begin = false) {
-        const { text, said } = this, asked = performance.now();
-        if (said) said.from ??= this.made;
+        const { text } = this, asked = performance.now();
         const piece = await page.client.call("live", { text, seed, begin });
         this.add(piece, (performance.now() - asked) / 1000);
         await new Promise((resolve) => { this.more = resolve; });
@@ -84,7 +83,8 @@ class Live {
     if (isEmpty({ text })) { page.askForWords(page.selected); return; }
     if (text === this.text) page.tell(`It goes on: ${text}`);
     else {
-      Object.assign(this, { text, said: { text, when: performance.now() } });
+      Object.assign(this, { text, said: { text, when: performance.now(), from: this.made } });
+      page.client.call("say", { text }).catch(() => null);
       page.tell(`Said: ${text}`);
     }
     if (document.activeElement === $("text")) $("text").select();

@@ -15,7 +15,7 @@ import { INDEX, kinematics } from "../body/skeleton.js";
 
 const SPACING = 1.7; // metres between takes
 const JOINTS = 22;
-const CELL = 0.045; // metres
+const CELL = 0.055; // metres
 
 export class Stage {
   /** @param {HTMLCanvasElement} canvas @param {object} body of the settings: skeleton, mesh, colours */
@@ -57,6 +57,7 @@ export class Stage {
     this.floor = new Mesh(new PlaneGeometry(200, 200), new ShadowMaterial({ color: 0x1c2430, opacity: 0.22 }));
     this.floor.rotation.x = -Math.PI / 2;
     this.floor.receiveShadow = true;
+    this.floor.visible = this.sun.castShadow;
     this.grid = gridOf(30);
     this.scene.add(this.floor, this.grid);
     this.line = new Line(new BufferGeometry(), new LineBasicMaterial({ color: 0xd0453c }));
@@ -253,13 +254,13 @@ export class Stage {
     if (!busy) this.keepPace(step);
   }
 
-  /** Where frames take long, draw less: first a coarser mannequin and no shadows, then fewer pixels. */
+  /** Where frames take long, draw less: first a coarser mannequin and no shadows, nor a floor, which is nothing without, then fewer pixels. */
   keepPace(step) {
     this.late = step > 0.045 ? (this.late ?? 0) + 1 : 0;
     if (this.late < 12 || this.lean === 2) return;
     this.late = 0;
     this.lean++;
-    this.sun.castShadow = false;
+    this.sun.castShadow = this.floor.visible = false;
     if (this.lean === 1 && !this.worn) this.wear(null);
     this.resize();
   }

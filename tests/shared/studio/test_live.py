@@ -69,6 +69,18 @@ def test_a_live_body_moves_as_on_the_command_line(
 
 
 @BROWSER
+def test_what_is_said_while_a_piece_is_made_is_in_that_piece(browser: Browser) -> None:
+    browser.wait("!studio.making")
+    ask, say = "studio.client.call('live', {})", "studio.client.call('say', {})"
+    first, then = ({"text": text, "seed": 3, "begin": True} for text in (WALKS, WAVES))
+    late = [ask.format(json.dumps(first)), say.format(json.dumps({"text": WAVES}))]
+    told = "[[...piece.root], piece.texts]"
+    found = browser.evaluate(f"Promise.all([{', '.join(late)}]).then(([piece]) => {told})")
+    wanted = browser.evaluate(f"{ask.format(json.dumps(then))}.then((piece) => {told})")
+    assert found == wanted and set(wanted[1]) == {WAVES}
+
+
+@BROWSER
 def test_a_body_is_live_until_it_is_stopped_and_a_clip_then(
     browser: Browser, tmp_path: Path
 ) -> None:
