@@ -31,7 +31,7 @@ from .stream import DEFAULT_SAMPLING
 
 WINDOW = 0.5  # seconds after which another sentence may begin
 AHEAD = 1.0  # seconds made beyond them, to be gone on with while none comes
-WAITING = 5  # frames that are made before they are due
+WAITING = 8  # frames that are made before they are due
 _OSC_AT_ONCE = (1).to_bytes(8, "big")  # the time tag that means now
 
 

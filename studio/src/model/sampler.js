@@ -32,6 +32,7 @@ export class Sampler {
     const text = this.tower.encode(prompt), opened = this.opened(text);
     let x = start.slice(), before = null;
     for (let i = 0; i < schedule.length; i++) {
+      if (gone && !this.denoiser.helpers.length) await new Promise((resolve) => setTimeout(resolve)); // else nobody is heard meanwhile
       if (gone?.()) return null;
       const [step, alphaBar] = schedule[i], next = i + 1 < schedule.length ? schedule[i + 1][1] : 1;
       const a = Math.sqrt(alphaBar), s = Math.sqrt(1 - alphaBar);

@@ -7,6 +7,7 @@ import { isEmpty } from "./scene.js";
 
 const $ = (id) => document.getElementById(id);
 const WAITING = [5, 30]; // frames that are there before they are due, at least and at most
+const PIECES = 9; // of a window, and one: as long a wait may come again
 const KEPT = 120 * FPS; // frames that are remembered
 
 /** The page is live with the sentence that is selected, until it is stopped. */
@@ -23,6 +24,7 @@ class Live {
   made = 0; // frames
   at = 0; // which frame is shown, and how much of the way to the next one
   waiting = WAITING[0];
+  spent = []; // seconds of the last pieces
   busy = 0; // seconds of computing
   delays = []; // seconds from each sentence to the first frame that shows it
   said = null; // what is not yet seen
@@ -80,6 +82,7 @@ class Live {
   /** The selected sentence is what it does next. */
   say() {
     const { page } = this, { text } = page.scene.blocks[page.selected];
+    if (this.ended) return;
     if (isEmpty({ text })) { page.askForWords(page.selected); return; }
     if (text === this.text) page.tell(`It goes on: ${text}`);
     else {
@@ -96,7 +99,10 @@ class Live {
     this.kept.push({ ...piece, start: this.made });
     this.made += piece.frames;
     this.busy += seconds;
-    if (!first) this.waiting = Math.min(Math.max(WAITING[0], seconds * FPS, 0.9 * this.waiting), WAITING[1]);
+    if (!first) {
+      this.spent = [...this.spent, seconds].slice(-PIECES);
+      this.waiting = Math.min(Math.max(WAITING[0], Math.max(...this.spent) * FPS), WAITING[1]);
+    }
     while (this.kept[1]?.start <= this.made - KEPT) this.kept.shift();
     const near = this.kept.slice(this.kept.findLastIndex(({ start }) => start <= this.at));
     stage?.show([joined(...near)], 0);
