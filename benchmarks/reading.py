@@ -4,10 +4,12 @@
 
 A sentence is read if it is one clause and its nearest action is the one it asks for; a spin may be
 read as a turn, and waves and goodbyes are one gesture. None of the sentences is one of training or
-of `evaluate-requests`. Those of another hand (other_hand.tsv, by somebody who had seen neither) are
-read if they come apart as they are meant: sequences, and orders and later ones, which say in many
-ways what comes first, into their actions, in order (a turn may be a walked corner or a spin and a
-jog a run), two things at once into two, styled walks into one walk.
+of `evaluate-requests`. *Users* are more of them (users.yaml), by others who wrote as people would
+type: which of them are read, warned of though they are read, or misread in silence, and which that
+ask for other things are taken for something known. Those of another hand (other_hand.tsv, by
+somebody who had seen neither) are read if they come apart as they are meant: sequences, and orders
+and later ones, which say in many ways what comes first, into their actions, in order (a turn may be
+a walked corner or a spin and a jog a run), two things at once into two, styled walks into one walk.
 """
 
 import argparse
@@ -25,6 +27,7 @@ from src.shared.pipelines.text import SentenceGenerator
 from src.shared.pipelines.words import STANDS
 
 SENTENCES = Path(__file__).with_name("development.yaml")
+USERS = Path(__file__).with_name("users.yaml")
 OTHER_HAND = Path(__file__).with_name("other_hand.tsv")
 WILL_DO = {("turn", "walk"), ("jog", "run"), ("turn", "spin")}  # what it asks for, what is read
 
@@ -62,6 +65,28 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
     return {kind: sum(each) / len(each) for kind, each in groups.items()}
 
 
+def of_users(generator: TextToMotion) -> dict[str, Any]:
+    """Shares of users.yaml."""
+    entries = parse_yaml(USERS.read_text(encoding="utf-8"), USERS.name)
+    rows = [(entry["labels"]["action"], entry["language"], text)
+            for entry in entries for text in entry["text"]]  # fmt: skip
+    readings = generator.read([text for *_, text in rows])
+    groups = defaultdict[str, list[bool]](list)
+    for (action, language, _), reading in zip(rows, readings, strict=True):
+        known = reading is not None and reading.known
+        if action == "other":
+            groups["others-in-silence"].append(known)
+            continue
+        right = is_read(action, reading.nearest[0] if reading and reading.nearest else None)
+        groups["read"].append(right)
+        groups["read-" + language].append(right)
+        groups["wrong-in-silence"].append(known and not right)
+        if right:
+            groups["warned-though-read"].append(not known)
+    sizes = {"sentences": len(groups["read"]), "others": len(groups["others-in-silence"])}
+    return sizes | {name: sum(each) / len(each) for name, each in groups.items()}
+
+
 def figures(model: str) -> dict[str, Any]:
     """Shares of sentences that are read, by language and action; and of those warned of."""
     generator = TextToMotion.from_pretrained(model, device="cpu")
@@ -86,6 +111,7 @@ def figures(model: str) -> dict[str, Any]:
             name: sum(each) / max(len(each), 1)
             for name, each in (("read", doubted[True]), ("misread", doubted[False]))
         },
+        "users": of_users(generator),
         "of-another-hand": of_another_hand(sentences),
     }
 

@@ -9,13 +9,14 @@ those whose captions sound alike: it gets a direction of its own.
 
 import copy
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import numpy as np
 import torch
 from torch import Tensor
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
+from ..shared.config_schema import PAIRS, NetworkConfig
 from ..shared.data.captions.book import insert_babble, insert_word, packaged_book
 from ..shared.data.captions.language import spoken_labels
 from ..shared.data.captions.schema import Labels
@@ -29,6 +30,8 @@ from ..shared.model.clip.core import (
 )
 from ..shared.model.clip.out_of_domain import MANY, OFTENER
 from ..shared.model.clip.tokenizer import PromptTokenizer
+from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
+from ..shared.model.generation.motion_generator import TextToMotion
 from .run_log import announce
 from .task import generator, numpy_generator
 from .text_stages import with_places
@@ -129,6 +132,54 @@ def _combination(labels: Labels) -> Combination:
     return tuple(sorted((k, v) for k, v in spoken_labels(labels).items() if k != "style"))
 
 
+AGREED = 0.55  # share of a combination's captions that one place takes
+ALIKE = 0.4  # cosine of the keys of two places of one action
+
+
+@torch.no_grad()
+def own_places(
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+    captions: Sequence[Sequence[str]],
+    labels: Sequence[Labels],
+) -> Tensor:
+    """Which of a tower's places each combination of labels has [G], by where most of its captions
+    [G lists] go.
+
+    Where they do not agree, it is one of those they go to that is like that of the bare action and
+    no other combination has, the one with most of them first; or else that of the bare action. A
+    count does not change a place.
+    """
+    keys = tower.place_keys()
+    nearest = [(pooled(tower, tokenizer, texts) @ keys.T).argmax(-1) for texts in captions]
+    votes = torch.stack([torch.bincount(e, minlength=len(keys)) / len(e) for e in nearest])  # [G,P]
+    shares, best = votes.max(-1)
+    names = [group_of(each) for each in labels]
+    kinds = [group_of({key: each[key] for key in each if key != "count"}) for each in labels]
+    kinds = [kind if kind in names else name for kind, name in zip(kinds, names, strict=True)]
+    bare = [group_of({"action": each.get("action", "")}) for each in labels]
+    rows = list(zip(names, kinds, bare, best.tolist(), shares, strict=True))
+    found = {
+        name: place
+        for name, kind, home, place, share in rows
+        if name == kind and (share >= AGREED or name == home)
+    }
+    split = {name: row for row, name in enumerate(names) if kinds[row] == name not in found}
+    wanted = [
+        (float(votes[row, place]), name, place)
+        for name, row in split.items()
+        if bare[row] in found
+        for place in votes[row].nonzero().flatten().tolist()
+        if keys[place] @ keys[found[bare[row]]] > ALIKE
+    ]
+    for _, name, place in sorted(wanted, key=lambda each: -each[0]):
+        if name not in found and place not in found.values():
+            found[name] = place
+    for name, row in split.items():
+        found.setdefault(name, found.get(bare[row], int(best[row])))
+    return torch.tensor([found[kind] for kind in kinds])
+
+
 # ---------------------------------------------------------------- taught to a tower
 
 
@@ -205,7 +256,7 @@ def with_new_places(
     stay = keys_of(tokenizer(list(fixed))[0]) if fixed else telling[:0]
     telling = telling[~torch.isin(telling, stay)]
     pull = PULL * min(1.0, PULLED / len(own))
-    student = _extended(tower, telling).requires_grad_(False).train()
+    student = with_rows(tower, telling).requires_grad_(False).train()
     assert isinstance(student.encoder, TokenPairEncoder)
     learning = pad(torch.isin(student.encoder.keys, telling).float(), (0, 1))  # [rows]
     fade = (1 - (1 - pull) * learning)[:, None]
@@ -311,7 +362,7 @@ def _telling(captions: Sequence[Tensor], old: Tensor) -> Tensor:
     return every
 
 
-def _extended(tower: TextTower, keys: Tensor) -> TextTower:
+def with_rows(tower: TextTower, keys: Tensor) -> TextTower:
     """A copy of the tower with a row for each of these keys that it has none for."""
     assert isinstance(tower.encoder, TokenPairEncoder)
     before = tower.encoder.keys
@@ -325,3 +376,50 @@ def _extended(tower: TextTower, keys: Tensor) -> TextTower:
     state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
     wider.load_state_dict(state)
     return wider
+
+
+def with_fewer_rows(tower: TextTower, counts: Mapping[int, int], most: int) -> TextTower:
+    """The tower with at most so many rows: those that are longest where they are met most often.
+
+    Args:
+        counts: in how many captions each key stands.
+    """
+    assert isinstance(tower.encoder, TokenPairEncoder)
+    keys, rows = tower.encoder.keys, tower.encoder.rows.weight.detach()
+    met = torch.tensor([counts.get(key, 0) for key in keys.tolist()])
+    weight = rows[:-1].norm(dim=-1) * (1 + met).sqrt()
+    kept = weight.argsort(descending=True, stable=True)[:most].sort().values
+    fewer = TextTower(tower.config.model_copy(update={"text_pairs": len(kept)}), tower.embed_dim)
+    state = copy.copy(tower.state_dict())
+    state["encoder.keys"] = keys[kept]
+    state["encoder.rows.weight"] = torch.cat([rows[kept], rows[-1:]])
+    fewer.load_state_dict(state)
+    return fewer
+
+
+# ---------------------------------------------------------------- another tower
+
+SAME_PLACE = 0.9999  # cosine of two unit places that are one
+PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
+
+
+def with_tower(generator: TextToMotion, tags: Sequence[str]) -> MotionDenoiser:
+    """Its denoiser with these of its tags, opening its adapters at the places of its text tower
+    [P,D] where it did before it had that tower."""
+    state = generator.denoiser.state_dict()
+    places = generator.text.get_buffer("places").float()
+    known = normalize(state["places"].float(), dim=-1)  # weights in int8 are no longer unit
+    alike = normalize(places, dim=-1) @ known.T  # [P, P of before]
+    moved = torch.where(alike.amax(-1) > SAME_PLACE, state["adapter_of"][alike.argmax(-1)], 0)
+    rows = [generator.card.tags.index(tag) for tag in tags] + [-1]  # the last stands for none
+    changed = MotionDenoiser(generator.network, len(tags))
+    changed.load_state_dict(
+        {**state, "places": places, "adapter_of": moved, TAG_WEIGHT: state[TAG_WEIGHT][rows]}
+    )
+    return changed.eval()
+
+
+def with_pairs(network: NetworkConfig, number: int) -> NetworkConfig:
+    """The network with a text tower of so many tokens and pairs."""
+    sizes = {"text_model": PAIRS, "text_pairs": number, "text_hidden_size": PAIR_WIDTH}
+    return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})

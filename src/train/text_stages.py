@@ -245,6 +245,7 @@ def network_of_model(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
 MOST_NAMED = 300  # captions that stand for actions
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector
 CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
+HEARD = 3  # sentences that have to have a word, for it to be one that is known
 IDEOGRAPHS = (0x4E00, 0x9FFF)
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -286,6 +287,24 @@ def fit_scope(
     if len(set(scope.actions) - {""}) < 2:  # nothing to take one for another
         return scope
     return _calibrated(scope, texts, actions, languages, tower, tokenizer)
+
+
+def refit_scope(
+    scope: OutOfDomainDetector,
+    languages: tuple[str, ...],
+    tower: TextTower,
+    tokenizer: PromptTokenizer,
+) -> OutOfDomainDetector:
+    """The scope of a tower that went on with more sentences of the same actions: it knows their
+    words, too, and its warnings are fitted anew. Its key words, where actions lie, and how sure one
+    has to be to part a sentence, stay: calibrated anew it parted a tenth of the sentences that are
+    one (docs/experiments.md, section 72)."""
+    book = packaged_book()
+    told = {t for code in languages if code in book.languages
+            for t in book.written_of(scope.actions, code)}  # fmt: skip
+    heard = Counter(word for text in told for word in {*words_of(text)})
+    scope = replace(scope, words=scope.words | {word for word in heard if heard[word] >= HEARD})
+    return fit_warnings(scope, languages, tower, tokenizer)
 
 
 def _names(data: PreparedData, records: Iterable[ClipRecord]) -> dict[str, str]:

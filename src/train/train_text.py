@@ -10,9 +10,11 @@ is read off the embedding besides; `train_clip text=…` then teaches a motion t
 (locked-tower tuning, Zhai et al. 2022, LiT). A pretrained `clip.text-model` learns at a rate of its
 own (`encoder-learning-rate`); at 0 it is frozen, and each caption is read once. With one, a trained
 tower is hardened: a place is the mean of its captions under the tower that was there before, so
-that denoisers stay valid, and neither they nor the motion tower are touched.
+that denoisers stay valid, and neither they nor the motion tower are touched. One that has places
+goes on with these: it reads more sentences, with rows for their words, and what it read rightly is
+held to what it made of it (distillation, Hinton et al. 2015).
 
-Letters: B batch, G label combinations, D shared dimensions.
+Letters: B batch, G label combinations, P places, D shared dimensions.
 """
 
 import copy
@@ -26,19 +28,21 @@ import numpy as np
 import torch
 from accelerate import PartialState
 from torch import Tensor, nn
-from torch.nn.functional import cross_entropy, normalize
+from torch.nn.functional import cross_entropy, kl_div, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTextConfig
-from ..shared.data.captions.book import drop_words, insert_babble, packaged_book
+from ..shared.data.captions.book import drop_words, insert_babble, packaged_book, piece_of
 from ..shared.data.captions.schema import Labels
-from ..shared.errors import UserError
+from ..shared.data.prepared import group_of
+from ..shared.errors import UsageError, UserError
 from ..shared.io.files import sha256_file
 from ..shared.model.checkpoint import WEIGHTS_FILE, read_card, resolve_model
 from ..shared.model.clip.core import (
+    PLACE_SCALE,
     MotionClip,
     TextTower,
     TokenPairEncoder,
-    shared_keys,
+    counted_keys,
 )
 from ..shared.model.clip.pretrained import (
     KIND,
@@ -48,11 +52,22 @@ from ..shared.model.clip.pretrained import (
     tower_hash,
 )
 from ..shared.model.clip.tokenizer import PromptTokenizer
-from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import KIND as GENERATOR
 from ..shared.model.generation.motion_generator import TextToMotion
 from .launch import STAGES
-from .places import apart, fuller_sides, nearest_styles, with_sentences, with_unstyled
+from .places import (
+    SAME_PLACE,
+    apart,
+    fuller_sides,
+    nearest_styles,
+    own_places,
+    with_fewer_rows,
+    with_pairs,
+    with_rows,
+    with_sentences,
+    with_tower,
+    with_unstyled,
+)
 from .task import Part, Task, numpy_generator
 from .text_stages import (
     MEANS_FILE,
@@ -64,17 +79,18 @@ from .text_stages import (
     motion_rows,
     new_tokenizer,
     open_training_data,
+    refit_scope,
     trained_card,
     with_places,
 )
 
 VOTES = 24  # captions of each combination and language, whose place is the most frequent one
 OLD_CAPTIONS = 8  # of each combination and language, whose mean is its place
-PAIR_WIDTH = 64  # of the hidden states of a tower of token pairs
 PLAIN = 2.0  # how much more often combinations without a style are drawn
 NOWHERE = 0.5  # cosine of the place of what asks for nothing that is known
 HEADS = 0.3  # weight of the labels beside the place, from nothing
-SAME_PLACE = 0.9999  # cosine of two unit places that are one
+MANY = 40  # combinations of an action
+NEAR = 2.0  # weight of how far an embedding has gone beside that of the shares of places
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
 
@@ -111,8 +127,9 @@ class LabelledTower(nn.Module):
 
 @dataclass(frozen=True)
 class TextBatch:
-    """input_ids, attention_mask [B,L]; group [B] index of the right place, G = none of them; mean
-    [B,H] where a frozen encoder has read the captions already, which then have no ids."""
+    """input_ids, attention_mask [B,L]; group [B] index of the right place, P = none of them, -1 =
+    as it was read before; mean [B,H] where a frozen encoder has read the captions already, which
+    then have no ids."""
 
     input_ids: Tensor
     attention_mask: Tensor
@@ -132,12 +149,23 @@ class TextTask(Task):
         self.data = open_training_data(config, bundle.clip.config if bundle else network)
         self.receiver = TextToMotion.from_pretrained(config.generator) if config.generator else None
         left_out = set(config.without)
+        self.goes_on = (
+            bundle is not None
+            and config.tower == "same"
+            and bundle.clip.config.clip.text_places > 0
+        )
+        if bundle is not None and self.goes_on:
+            self._check_going_on(bundle)
         if unknown := sorted(left_out - set(self.data.tags)):
             raise UserError(
                 f"without={','.join(unknown)}: {config.data} has no such action; leave it out"
             )
         records = [r for r in self.data.records("train") if r.tag not in left_out]
         self.labels = {record.group: record.labels for record in records if record.labels}
+        tags = set(bundle.card.tags) if bundle is not None and self.goes_on else None
+        if tags is not None:  # what it knows it goes on with, whatever the data shows of it
+            told = [*self.labels.values(), *packaged_book().combinations()]
+            self.labels = {group_of(each): each for each in told if each.get("action") in tags}
         if not self.labels:
             raise UserError(
                 f"{config.data} has no labels to write fresh captions from; this stage needs them"
@@ -157,9 +185,9 @@ class TextTask(Task):
             else {}
             for group in self.groups
         ]
-        known = {labels.get("action", "") for labels in self.labels.values()}
-        told = codes if bundle is not None and config.outside else ()
-        self.outside = {code: _taught(book.outside(known, code), code) for code in told}
+        known = tags or {labels.get("action", "") for labels in self.labels.values()}
+        asked = codes if bundle is not None and config.outside else ()
+        self.outside = {code: _taught(book.outside(known, code), code) for code in asked}
         self.shares = self._shares()
         self.fresh = self._captions(HELD_BACK_SEED + 1, config.captions_per_group)
         self.held_back = self._captions(HELD_BACK_SEED, 2)
@@ -173,6 +201,12 @@ class TextTask(Task):
             self.places = self._places()
             if config.tower == PAIRS:
                 self._replace_tower(bundle)
+        self.place_of = torch.arange(len(self.groups) + 1)  # [G + 1], the last one none of them
+        self.teacher: TextTower | None = None
+        self.whole: dict[str, list[str]] = {}  # captions to be read in pieces, by language
+        if bundle is not None and self.goes_on:
+            self.place_of = torch.cat([self._own_places(bundle), torch.tensor([len(self.places)])])
+            self._go_on(bundle)
         tower = copy.deepcopy(self.bundle.clip.text).train().requires_grad_(True)
         self.module: nn.Module = tower
         if bundle is None:
@@ -187,6 +221,25 @@ class TextTask(Task):
             "data-hash": self.data.manifest_hash,
             "clip-hash": config.clip and sha256_file(resolve_model(config.clip) / WEIGHTS_FILE),
         }
+
+    def _check_going_on(self, bundle: ClipBundle) -> None:
+        """Of a tower with places: that all it knows is gone on with, for its own denoiser."""
+        config = self.config
+        if config.without:
+            raise UsageError(
+                f"without={','.join(config.without)}: {config.clip} goes on with all that it knows"
+                "; leave it out"
+            )
+        if lost := set(bundle.card.languages) - set(config.languages):
+            raise UsageError(
+                f"languages={','.join(config.languages)} leaves out {', '.join(sorted(lost))},"
+                f" which {config.clip} would forget; name them, too"
+            )
+        if self.receiver and tower_hash(self.receiver.text) != tower_hash(bundle.clip.text):
+            raise UserError(
+                f"generator {config.generator} does not know the places of {config.clip}; leave it"
+                " out, or let it be read anew with tower=pairs"
+            )
 
     def _from_nothing(self, network: NetworkConfig) -> ClipBundle:
         """Two towers that know nothing, and a tokenizer of these captions."""
@@ -208,10 +261,38 @@ class TextTask(Task):
         return [text for group in groups for some in group.values() for text in some]
 
     def _shared_keys(self, tokenizer: PromptTokenizer) -> Tensor:
-        """Tokens and pairs of them that enough captions share [N]."""
-        texts = sorted(set(self._texts()))
+        """Tokens and pairs of them that enough captions share [N], ascending."""
+        keys, counts = self._counted_keys(tokenizer, self._texts())
+        return keys[counts >= self.config.least_captions]
+
+    @staticmethod
+    def _counted_keys(tokenizer: PromptTokenizer, texts: list[str]) -> tuple[Tensor, Tensor]:
+        """Tokens and pairs of them [N], and how many different texts each stands in [N]."""
+        texts = sorted(set(texts))
         batches = (tokenizer(texts[at : at + 1024])[0] for at in range(0, len(texts), 1024))
-        return shared_keys(batches, self.config.least_captions)
+        return counted_keys(batches)
+
+    def _own_places(self, bundle: ClipBundle) -> Tensor:
+        """Which of the tower's own places each combination has [G]."""
+        captions = self._captions(0, VOTES, whole=False)
+        said = [[text for texts in group.values() for text in texts] for group in captions]
+        labels = [self.labels[group] for group in self.groups]
+        return own_places(bundle.clip.text.eval(), bundle.tokenizer, said, labels)
+
+    def _go_on(self, bundle: ClipBundle) -> None:
+        """A tower with rows for the words of more sentences; the one that was there teaches it."""
+        self.teacher = copy.deepcopy(bundle.clip.text).requires_grad_(False).train()
+        self.teacher.encoder.eval()  # whole sentences, as they are before they are sent to places
+        if self.config.pieces:
+            for each in self._captions(0, VOTES, whole=False):
+                self.whole = {code: self.whole.get(code, []) + each[code] for code in each}
+        written = [text for each in self.sentences for texts in each.values() for text in texts]
+        keys, counts = self._counted_keys(bundle.tokenizer, self._texts() + written)
+        self.met = dict(zip(keys.tolist(), counts.tolist(), strict=True))
+        more = with_rows(bundle.clip.text, keys[counts >= self.config.least_captions])
+        network = bundle.clip.config
+        bundle.clip.config = network.model_copy(update={"clip": more.config})
+        bundle.clip.text = more
 
     def _replace_tower(self, bundle: ClipBundle) -> None:
         """A tower of token pairs that knows nothing yet, in place of the one that is there."""
@@ -223,15 +304,17 @@ class TextTask(Task):
         bundle.clip.text, bundle.clip.config = tower, network
 
     def _shares(self) -> np.ndarray:
-        """How often a combination is drawn [G]: an action of n combinations weighs n^0.75, and in
-        it one of m hand-written sentences sqrt(1 + m), PLAIN times that without a style: the words
-        of plain ones stand in all others, too, and would ask for the middle of the styles."""
+        """How often a combination is drawn [G]: an action of n combinations weighs n^0.75 (of more
+        than MANY no more where a tower goes on, which knows them), and in it one of m hand-written
+        sentences sqrt(1 + m), PLAIN times that without a style: the words of plain ones stand in
+        all others, too, and would ask for the middle of the styles."""
         actions = [self.labels[group].get("action") for group in self.groups]
         written = np.array([1 + sum(map(len, each.values())) for each in self.sentences]) ** 0.5
         written *= [1.0 if "style" in self.labels[group] else PLAIN for group in self.groups]
         weights = np.zeros(len(actions))
         for action, number in Counter(actions).items():
             own = np.array([each == action for each in actions])
+            number = min(number, MANY) if self.goes_on else number
             weights[own] = number**0.75 * written[own] / written[own].sum()
         return np.asarray(weights / weights.sum())
 
@@ -248,10 +331,13 @@ class TextTask(Task):
         ]
 
     def _places(self) -> Tensor:
-        """Unit mean [G,D] of each combination's captions under the old tower.
+        """Unit mean [G,D] of each combination's captions under the old tower, or the places [P,D]
+        that it has.
 
         Those of the grammar: it may not know what whole sentences ask for.
         """
+        if self.goes_on:
+            return self.bundle.clip.text.place_keys()
         captions = self._captions(0, OLD_CAPTIONS, whole=False)
         texts = [text for group in captions for texts in group.values() for text in texts]
         owner = [i for i, group in enumerate(captions) for texts in group.values() for _ in texts]
@@ -286,8 +372,11 @@ class TextTask(Task):
         return places[torch.stack(found)]
 
     def to(self, device: torch.device) -> None:
-        """The places follow the module, and the frozen encoder, there now, reads the captions."""
+        """The places and a teacher follow the module, and the frozen encoder, there now, reads the
+        captions."""
         self.places = self.places.to(device)
+        if self.teacher is not None:
+            self.teacher.to(device)
         if isinstance(self.module, LabelledTower) and self.read_once:
             captions = self._captions_to_read()
             file = Path(self.config.output) / MEANS_FILE
@@ -314,9 +403,14 @@ class TextTask(Task):
         config = self.config
         rng = numpy_generator("text", config.seed, part.step, part.index)
         chosen = rng.choice(len(self.groups), size=config.batch_size, p=self.shares)
-        captions, rows = [], []
+        captions, rows, held = [], [], []
         for row, group in enumerate(chosen):
             language = config.languages[rng.integers(len(config.languages))]
+            if (whole := self.whole.get(language)) and rng.random() < config.pieces:
+                held.append(row)
+                first, second = rng.integers(len(whole), size=2)
+                captions.append(piece_of(whole[first], whole[second], rng))
+                continue
             if self.outside.get(language) and rng.random() < config.outside:
                 chosen[row] = len(self.groups)
                 texts = self.outside[language]
@@ -333,7 +427,8 @@ class TextTask(Task):
             else:
                 texts = by_language[language]
                 captions.append(self._damaged(texts[rng.integers(len(texts))], language, rng))
-        groups = torch.from_numpy(chosen)
+        groups = self.place_of[torch.from_numpy(chosen)]
+        groups[held] = -1
         if self.read_once:
             none = torch.zeros(len(groups), 0, dtype=torch.long)
             return TextBatch(none, none, groups, self.means[rows].float())
@@ -356,14 +451,38 @@ class TextTask(Task):
             choice, label = module(batch, scale)
             return {"loss": choice + HEADS * label, "choice": choice, "labels": label}
         pooled = module(batch.input_ids, batch.attention_mask).pooled  # [B, D]
-        cosines = pooled @ self.places.T  # [B, G]
-        outside = batch.group == len(self.places)
+        cosines = pooled @ self.places.T  # [B, P]
+        told = batch.group >= 0
+        inside = told & (batch.group < len(self.places))
         nowhere = torch.full_like(cosines[:, :1], NOWHERE if self.outside else -torch.inf)
-        choice = cross_entropy(scale * torch.cat((cosines, nowhere), -1), batch.group)
-        own = cosines[~outside].gather(-1, batch.group[~outside, None])
+        chances = scale * torch.cat((cosines, nowhere), -1)
+        choice = cross_entropy(chances[told], batch.group[told])
+        own = cosines[inside].gather(-1, batch.group[inside, None])
         cosine = 1 - own.mean()
         loss = cosine + self.config.choice_weight * choice
-        return {"loss": loss, "cosine": cosine, "choice": choice}
+        if self.teacher is None:
+            return {"loss": loss, "cosine": cosine, "choice": choice}
+        kept = self._kept(batch, pooled, cosines)
+        return {"loss": loss + self.config.keeping * kept, "cosine": cosine, "choice": choice,
+                "kept": kept}  # fmt: skip
+
+    def _kept(self, batch: TextBatch, pooled: Tensor, cosines: Tensor) -> Tensor:
+        """How far what the teacher read rightly, and pieces of captions, have gone from where they
+        were, and from the shares of the places [B,P] that they had."""
+        assert self.teacher is not None
+        with torch.no_grad():
+            taught = self.teacher(batch.input_ids, batch.attention_mask).pooled  # [B, D]
+            shares = PLACE_SCALE * taught @ self.places.T
+        right = (shares.argmax(-1) == batch.group) | (batch.group < 0)
+        if not right.any():
+            return cosines.new_zeros(())
+        spread = kl_div(
+            (PLACE_SCALE * cosines[right]).log_softmax(-1),
+            shares[right].softmax(-1),
+            reduction="batchmean",
+        )
+        kept: Tensor = spread + NEAR * (1 - (pooled[right] * taught[right]).sum(-1)).mean()
+        return kept
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Of captions that training did not read: how many land nearest to the right place."""
@@ -377,19 +496,22 @@ class TextTask(Task):
             if not pairs:
                 continue
             embeddings = encode_captions(tower, self.tokenizer, [text for text, _ in pairs])
-            nearest = (embeddings @ places.T).argmax(-1)
-            right = nearest == torch.tensor([index for _, index in pairs])
+            nearest = places[(embeddings @ places.T).argmax(-1)]
+            wanted = places[self.place_of[[index for _, index in pairs]]]
+            right = (nearest * wanted).sum(-1) > SAME_PLACE  # places may be one
             figures[f"right-{language}"] = right.float().mean().item()
         figures["right"] = sum(figures.values()) / max(len(figures), 1)
         module.train()
         return figures
 
     def _trained(self, module: nn.Module) -> tuple[TextTower, Tensor]:
-        """The tower, and the places [G,D] on the CPU."""
+        """The tower, and on the CPU the places [P,D] that it sends texts to."""
         if isinstance(module, LabelledTower):
             tower = self.z_scores.folded(module.tower) if self.z_scores else module.tower
             return tower, normalize(module.places.detach(), dim=-1).cpu()
         assert isinstance(module, TextTower)
+        if self.goes_on:
+            return module, normalize(module.get_buffer("places").float(), dim=-1).cpu()
         return module, self.places.cpu()
 
     def _placed(self, tower: TextTower) -> TextTower:
@@ -404,25 +526,40 @@ class TextTask(Task):
         self.bundle.clip.config = network
         return placed
 
+    def _fewer_rows(self, tower: TextTower) -> TextTower:
+        """With no more rows than are to be kept."""
+        most = self.config.most_rows or tower.config.text_pairs
+        tower = with_fewer_rows(tower, self.met, most).freeze()
+        network = self.bundle.clip.config.model_copy(update={"clip": tower.config})
+        self.bundle.clip.config = network
+        return tower
+
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The CLIP folder with the new tower; or the generator with it and a new scope."""
         tower = self._trained(module)[0].cpu().freeze()
         if self.config.tower == PAIRS:
             tower = self._placed(tower)
+        elif self.goes_on:
+            tower = self._fewer_rows(tower)
         hardened = {"steps": self.config.steps, "validation": self.figures}
         if self.config.generator is None:
             self.bundle.clip.text = tower
             self.bundle.card = _noted(self.bundle.card, hardened)
             self.bundle.save_pretrained(folder)
             return
-        generator = TextToMotion.from_pretrained(self.config.generator)
+        generator = TextToMotion.from_pretrained(self.config.generator, device="cpu")
         generator.text, generator.tokenizer = tower, self.tokenizer
         languages, without = self.config.languages, self.config.without
-        generator.scope = fit_scope(self.data, languages, tower, self.tokenizer, without)
-        generator.style_map = fit_style_map(self.data, languages, tower, self.tokenizer)
         clip = self.bundle.clip.config.clip
         generator.network = generator.network.model_copy(update={"clip": clip})
         generator.card = _noted(generator.card, hardened)
+        if self.goes_on:  # its places stay
+            if generator.scope is not None:
+                generator.scope = refit_scope(generator.scope, languages, tower, self.tokenizer)
+            generator.save_pretrained(folder)
+            return
+        generator.scope = fit_scope(self.data, languages, tower, self.tokenizer, without)
+        generator.style_map = fit_style_map(self.data, languages, tower, self.tokenizer)
         if generator.network.generation.adapter_ranks:
             kept = [tag for tag in generator.card.tags if tag not in without]
             generator.denoiser = with_tower(generator, kept)
@@ -433,28 +570,6 @@ class TextTask(Task):
 def _taught(texts: list[str], lang: str) -> list[str]:
     """Those that training reads; all of them, where none were left."""
     return [text for text in texts if not packaged_book().kept_to_calibrate(text, lang)] or texts
-
-
-def with_tower(generator: TextToMotion, tags: Sequence[str]) -> MotionDenoiser:
-    """Its denoiser with these of its tags, opening its adapters at the places of its text tower
-    [P,D] where it did before it had that tower."""
-    state = generator.denoiser.state_dict()
-    places = generator.text.get_buffer("places").float()
-    known = normalize(state["places"].float(), dim=-1)  # weights in int8 are no longer unit
-    alike = normalize(places, dim=-1) @ known.T  # [P, P of before]
-    moved = torch.where(alike.amax(-1) > SAME_PLACE, state["adapter_of"][alike.argmax(-1)], 0)
-    rows = [generator.card.tags.index(tag) for tag in tags] + [-1]  # the last stands for none
-    changed = MotionDenoiser(generator.network, len(tags))
-    changed.load_state_dict(
-        {**state, "places": places, "adapter_of": moved, TAG_WEIGHT: state[TAG_WEIGHT][rows]}
-    )
-    return changed.eval()
-
-
-def with_pairs(network: NetworkConfig, number: int) -> NetworkConfig:
-    """The network with a text tower of so many tokens and pairs."""
-    sizes = {"text_model": PAIRS, "text_pairs": number, "text_hidden_size": PAIR_WIDTH}
-    return network.model_copy(update={"clip": network.clip.model_copy(update=sizes)})
 
 
 def open_tower(name_or_folder: str) -> ClipBundle:

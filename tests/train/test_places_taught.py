@@ -1,11 +1,21 @@
 """A new action in the shipped text tower, and what that leaves as it was."""
 
+import torch
+
 from src.shared.data.captions.book import packaged_book
-from src.shared.model.clip.core import TextTower
+from src.shared.model.clip.core import TextTower, TokenPairEncoder, keys_of
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.model.clip.pretrained import encode_captions, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.train.places import apart, old_captions, with_new_places, within_reach
+from src.train.places import (
+    apart,
+    old_captions,
+    own_places,
+    pooled,
+    with_fewer_rows,
+    with_new_places,
+    within_reach,
+)
 from src.train.train_action import KEPT
 
 
@@ -47,3 +57,46 @@ def test_sentences_by_hand_of_known_actions_stay_but_those_that_calibrate() -> N
     old = set(old_captions(["squat"], ["en"]))
     assert kept and written - kept <= old
     assert not kept & old - set(book.captions({"action": "squat"}, num=16, seed=0)["en"])
+
+
+def test_a_combination_has_the_place_that_its_captions_go_to_or_else_one_like_the_bare_one() -> (
+    None
+):
+    starter = TextToMotion.from_pretrained("starter", device="cpu")
+    tower, tokenizer = starter.text, starter.tokenizer
+    pressed = ["press the button", "he pushes a button"]
+    left = ["press the button with the left hand", "he pushes a button with his left hand"]
+    others = ["nod your head", "he jumps", "they clap", "she shrugs"]
+    asked: list[tuple[dict[str, str | int], list[str]]] = [
+        ({"action": "press-button"}, pressed),
+        ({"action": "press-button", "side": "left"}, left),
+        ({"action": "press-button", "side": "left"}, [*left[:1], *others[:3]]),
+        ({"action": "press-button", "side": "right"}, others),
+        ({"action": "press-button", "count": 2}, others[:1]),
+    ]
+
+    def places(*rows: int) -> list[int]:
+        labels, texts = zip(*(asked[row] for row in rows), strict=True)
+        return own_places(tower, tokenizer, texts, labels).tolist()
+
+    bare, aside = places(0, 1)
+    assert bare != aside
+    assert places(0, 2) == [bare, aside]  # though most of its captions go elsewhere
+    assert places(0, 3) == [bare, bare]
+    assert places(0, 4) == [bare, bare]
+    assert places(3) != [bare]
+
+
+def test_a_tower_keeps_the_rows_that_say_most() -> None:
+    starter = TextToMotion.from_pretrained("starter", device="cpu")
+    tower, tokenizer = starter.text, starter.tokenizer
+    assert isinstance(tower.encoder, TokenPairEncoder)
+    text = ["a person walks forward"]
+    own = keys_of(tokenizer(text)[0]).unique().tolist()
+    fewer = with_fewer_rows(tower, dict.fromkeys(own, 10**9), 1000).freeze()
+    assert isinstance(fewer.encoder, TokenPairEncoder)
+    assert len(fewer.encoder.keys) == fewer.config.text_pairs == 1000
+    torch.testing.assert_close(
+        pooled(fewer, tokenizer, text), pooled(tower, tokenizer, text), rtol=0, atol=1e-6
+    )
+    assert torch.equal(fewer.place_keys(), tower.place_keys())

@@ -22,6 +22,7 @@ from tiny_stage import (
 from src.shared.config_loader import load_train
 from src.shared.config_schema import TrainTextConfig
 from src.shared.data.captions.book import packaged_book
+from src.shared.errors import UserError
 from src.shared.model.clip.pretrained import ClipBundle, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train.engine import Trainer
@@ -124,6 +125,47 @@ def test_a_generator_gets_a_tower_of_token_pairs(
     assert behind.network.clip == new.network.clip
     texts = ["a person walks", "she waves"]
     assert torch.equal(behind.encode_prompts(texts).pooled, new.encode_prompts(texts).pooled)
+
+
+def test_a_tower_with_places_goes_on_with_more_sentences(
+    prepared: Path, paired: Hardened, tmp_path: Path
+) -> None:
+    own, more = paired.hard, tmp_path / "more"
+    old = TextToMotion.from_pretrained(own)
+    most = old.network.clip.text_pairs - 5
+    config = text_config(
+        prepared, own, more, "steps=60", "batch-size=64", "learning-rate=0.02", "weight-decay=0",
+        "choice-weight=2", "least-captions=2", "captions-per-group=24", f"most-rows={most}",
+    )  # fmt: skip
+    task = TextTask(config, tiny_network())
+    fresh = task.module.get_submodule("encoder").get_buffer("keys")
+    assert len(fresh) > most  # those of hand-written sentences, too
+    assert {each["action"] for each in task.labels.values()} <= set(old.card.tags)
+    loss = task.training_step(task.module.eval().train(), task.batch(Part(0, 0, 1)))
+    assert loss["kept"] > 0 and torch.isfinite(loss["loss"])
+    first = task.validation(task.module)["right"]
+    assert harden(config).figures["right"] > first - 0.02
+    new = TextToMotion.from_pretrained(more)
+    assert new.network.clip.text_pairs == most
+    for key, value in old.denoiser.state_dict().items():
+        assert torch.equal(value, new.denoiser.state_dict()[key])
+    assert torch.equal(old.text.place_keys(), new.text.place_keys())
+    assert old.scope is not None and new.scope is not None
+    assert old.scope.words <= new.scope.words and old.scope.actions == new.scope.actions
+
+
+def test_going_on_refuses_what_it_would_forget(
+    prepared: Path, paired: Hardened, tmp_path: Path
+) -> None:
+    known = TextToMotion.from_pretrained(paired.hard).card
+    for words, reason in (
+        (f"without=[{known.tags[0]}]", "leave it out"),
+        (f"languages=[{known.languages[0]}]", "would forget"),
+        (f"generator='{paired.made}'", "does not know the places"),
+    ):
+        config = text_config(prepared, paired.hard, tmp_path, words)
+        with pytest.raises(UserError, match=reason):
+            TextTask(config, tiny_network())
 
 
 def test_texts_are_read_by_new_keys_and_sent_to_the_places_of_a_denoiser(

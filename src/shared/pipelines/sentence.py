@@ -309,14 +309,17 @@ def _is_time(text: str, word: re.Match[str], right: str, read: Read, sure: bool 
 
 
 def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
-    """A clause at the head of a sentence and the rest: parted at the comma that leaves two
-    actions, else at the first one; where there is none, at such a blank."""
+    """A clause at the head of a sentence and the rest: parted at the comma (or else the blank)
+    that leaves two actions, else at the first comma."""
     words = all_words()
     commas = [match.span() for match in words.comma.finditer(text)]
     if not commas:  # "after walking in he waves | and then bows"
         ends = [found.start() for each in (words.then, words.joint) if (found := each.search(text))]
-        early = [cut for cut in _blanks(text) if cut[1] < min(ends, default=0)]
-        return _best(text, early, read) or _best(text, _blanks(text), read)
+        ands = [match.span() for match in words.joint.finditer(text)]  # not beside one
+        cuts = [cut for cut in _blanks(text) if not words.whoever.search(text[: cut[0]])
+                and not any(cut[1] >= one[0] and cut[0] <= one[1] for one in ands)]  # fmt: skip
+        early = [cut for cut in cuts if cut[1] < min(ends, default=0)]
+        return _best(text, early, read) or _best(text, cuts, read)
     halves = _best(text, commas, read) or (text[: commas[0][0]], text[commas[0][1] :])
     return halves if all(half.strip(EDGES) for half in halves) else None
 
@@ -392,8 +395,7 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
 
 
 def _is_aside(piece: str, *, first: bool) -> bool:
-    """Whether a piece names nothing but limbs, sides and posture, or, behind another one, says
-    what is not done."""
+    """Whether a piece names but limbs, sides and posture, or, behind another, what is not done."""
     rest = all_words().aside.sub(" ", piece).strip(EDGES)
     return not rest or (not first and bool(all_words().lacking.match(rest)))
 
@@ -409,8 +411,7 @@ class _Way(NamedTuple):
         return len(self.parts), -len(self.passed), self.certainty
 
 
-def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:
-    """Whether both are understood, as two actions."""
+def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:  # as two actions
     return min(first.certainty, second.certainty) > sure and first.action != second.action
 
 
@@ -450,8 +451,7 @@ def _at_once(first: str, second: str, read: Read, *, in_row: bool) -> Clause | N
 
 
 def _parted(text: str, read: Read) -> Clause | None:
-    """A clause that tells of two things done at once, as `_at_once`."""
-    words = all_words()
+    words = all_words()  # as `_at_once`
     marks = [match.span() for match in words.meanwhile.finditer(text)]
     joints = [match.span() for match in words.joint.finditer(text)]
     signs = [(match.start(), match.start()) for match in words.sign.finditer(text)]

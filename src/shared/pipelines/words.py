@@ -267,11 +267,11 @@ class Words:
         goes_on = rf"(?:{holds}\s+{kept}|{kept}\s+{holds}){there}*|{_any(all_of('stays'))}{there}+"
         held = rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}"
         self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
-        self.arms = re.compile(_any(all_of("limbs")), re.I)
-        self.about = re.compile(_any(all_of("about")), re.I)
+        self.arms, self.about = (re.compile(_any(all_of(w)), re.I) for w in ("limbs", "about"))
         refused = rf"{_any(all_of('refuses'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
         who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
+        self.whoever = re.compile(rf"{_any(all_of('who'))}$", re.I)  # does what follows
         instead = rf"{_any(all_of('instead'))}(?:[^,;.!?]{{0,60}}?(?:{who}))?"
         self.instead = re.compile(rf"(?:{instead}|{_STATT}|{_NOT_THIS})\s*", re.I)
         goals, ways, verbs_to = dict[str, str](), list[str](), list[str]()

@@ -286,7 +286,8 @@ export class SentenceReader {
     const commas = spans(text, this.each.comma);
     if (!commas.length) { // "after walking in he waves | and then bows"
       const ends = ["then", "joint"].map((name) => this.first[name].exec(text)?.index).filter((at) => at !== undefined);
-      const cuts = spans(text, BLANKS), end = Math.min(...ends);
+      const ands = spans(text, this.each.joint), end = Math.min(...ends); // not beside one
+      const cuts = spans(text, BLANKS).filter(([at, to]) => !this.first.whoever.test(text.slice(0, at)) && !ands.some(([start, stop]) => to >= start && at <= stop));
       return (ends.length && this.best(text, cuts.filter(([, stop]) => stop < end))) || this.best(text, cuts);
     }
     const halves = this.best(text, commas) ?? [text.slice(0, commas[0][0]), text.slice(commas[0][1])];

@@ -269,6 +269,19 @@ def insert_word(caption: str, of: str, rng: np.random.Generator) -> str:
     return joint.join(words)
 
 
+def piece_of(caption: str, following: str, rng: np.random.Generator, *, most: int = 6) -> str:
+    """Up to `most` words of the caption that follow each other, or, in half of the cases, of its
+    end and the beginning of another: what parting a sentence asks about. Of text without spaces
+    twice as many letters."""
+    joint = _between_words(caption)
+    words, more = (text.split() if joint else list(text) for text in (caption, following))
+    start = int(rng.integers(len(words)))
+    length = int(rng.integers(1, (most if joint else 2 * most) + 1))
+    words += more if rng.random() < 0.5 else []
+    piece = joint.join(words[start : start + length])
+    return piece if any(letter.isalnum() for letter in piece) else caption
+
+
 def _between_words(text: str) -> str:
     """A space, or nothing in scripts without spaces."""
     return "" if any(ord(letter) >= EAST_ASIAN for letter in text) else " "

@@ -51,12 +51,6 @@ def counted_keys(batches: Iterable[Tensor]) -> tuple[Tensor, Tensor]:
     return keys[keys > 0], counts[keys > 0]
 
 
-def shared_keys(batches: Iterable[Tensor], least: int) -> Tensor:
-    """The keys [N], ascending, that stand in at least so many of the texts."""
-    keys, counts = counted_keys(batches)
-    return keys[counts >= least]
-
-
 class TokenPairEncoder(nn.Module):
     """Stands where XLM-R stands: ids in, hidden states out.
 

@@ -4,7 +4,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.clip.core import TokenPairEncoder, keys_of, shared_keys
+from src.shared.model.clip.core import TokenPairEncoder, counted_keys, keys_of
 
 BOS, PAD, EOS = 0, 1, 2
 ids = st.lists(st.integers(3, 500), min_size=1, max_size=9)
@@ -12,6 +12,11 @@ ids = st.lists(st.integers(3, 500), min_size=1, max_size=9)
 
 def row(words: list[int], length: int = 12) -> torch.Tensor:
     return torch.tensor([[BOS, *words, EOS, *[PAD] * (length - len(words) - 2)]])
+
+
+def shared_keys(texts: list[torch.Tensor], least: int) -> torch.Tensor:
+    keys, counts = counted_keys(texts)
+    return keys[counts >= least]
 
 
 def encoder(*texts: list[int], least: int = 1) -> TokenPairEncoder:
