@@ -37,7 +37,7 @@ PAIRED = (
     "written=0",
     "outside=0",
 )
-NEW = ["a person flops", "flopping about", "someone flops down"]
+NEW = ["a person is flopping", "flopping about", "someone flops down"]
 
 
 @pytest.fixture(scope="module")
