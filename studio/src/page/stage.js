@@ -15,7 +15,7 @@ import { INDEX, kinematics } from "../body/skeleton.js";
 
 const SPACING = 1.7; // metres between takes
 const JOINTS = 22;
-const CELL = 0.055; // metres
+const CELL = 0.065; // metres
 
 export class Stage {
   /** @param {HTMLCanvasElement} canvas @param {object} body of the settings: skeleton, mesh, colours */
