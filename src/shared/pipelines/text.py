@@ -78,11 +78,7 @@ log = logging.getLogger(__name__)
 
 
 class SentenceGenerator:
-    """A `TextToMotion` that does what its sentences say of order, number, angle and length.
-
-    Args:
-        generator: trained.
-    """
+    """A trained `TextToMotion` that does what sentences say of order, number, angle, length."""
 
     def __init__(self, generator: TextToMotion) -> None:
         self.generator = generator
@@ -225,13 +221,17 @@ class SentenceGenerator:
         self._told.add(prompt)
         parts, lines = self.clauses(prompt), list[str | None]()
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
+        same, said = True, self.whole(prompt)
         if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
-            lines = self.generator.scope_warnings([said := self.whole(prompt)], again=again)
-            if not parts[0].plain:
-                same = self._nearest(said) == self._nearest(texts[0])
-                apart = lines != [None] or not (same or parts[0].degrees is not None)
+            lines = self.generator.scope_warnings([said], again=again)
+            asked, made = self._nearest(said), self._nearest(texts[0])
+            same = asked == made or parts[0].plain or parts[0].degrees is not None
+            apart = not parts[0].plain and (lines != [None] or not same)
         if apart:
             lines = self.generator.scope_warnings(texts, again=again)
+        if not same and lines == [None] and parts[0].count > 1:
+            lines = [f"prompt {said!r} is {asked!r} by its number alone, and {made!r} without it;"
+                     " say it in other words"]  # fmt: skip
         angled = {part.text for part in parts if part.degrees is not None}  # which says it
         for at, text in enumerate(texts):
             sure = text in angled and self._reading(text).surely in ROUND

@@ -39,14 +39,13 @@ export class Director {
   warning(prompt) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    let lines = null;
+    let lines = texts.map((text) => this.scope.warning(text));
     if (texts.length === 1) { // known without its measures, or as the same with them
-      const said = this.reader.whole(prompt, parts);
-      const same = this.nearest(said) === this.nearest(texts[0]) || parts[0].degrees !== null;
-      const line = this.scope.warning(said);
+      const said = this.reader.whole(prompt, parts), [asked, made] = [said, texts[0]].map((text) => this.nearest(text));
+      const same = asked === made || isPlain(parts[0]) || parts[0].degrees !== null, line = this.scope.warning(said);
       if (isPlain(parts[0]) || (line === null && same)) lines = [line];
+      if (!same && lines[0] === null && parts[0].count > 1) lines = [`“${said}” is “${asked}” by its number alone, and “${made}” without it; say it in other words.`];
     }
-    lines ??= texts.map((text) => this.scope.warning(text));
     const angled = new Set(parts.filter(({ degrees }) => degrees !== null).map(({ text }) => text)); // the angle says it
     const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
     const told = texts.map((text, i) => this.unlearned(text) ?? (sure(text) ? null : lines[i])).filter(Boolean);

@@ -146,10 +146,11 @@ export class SentenceReader {
       let left = text.slice(0, match.index), said = "";
       const own = left.slice(left.lastIndexOf(ARROW.trim()) + 1), last = spans(own, this.each.joint).at(-1);
       let action = [last ? own.slice(last[1]) : own, own].map((each) => surely(this.reading(this.trimmed(each)))).find(Boolean) ?? null;
-      if (/[不没别勿]/u.test(left.slice(-4))) action = null;
+      const denied = /[不没别勿]/u.test(left.slice(-4));
+      if (denied) action = null;
       const [stays, comes] = ["held", "halts"].map((name) => this.match(name, text, match.index, true));
-      if (stays && action === "crouch-walk") { // "crouches and stays down", not "sneaks, low"
-        const whole = surely(this.reading(this.trimmed(own + match[0])));
+      if (stays && !denied && ["crouch-walk", "dodge", null].includes(action)) { // "crouches and stays down", not "sneaks, low"
+        const whole = action && surely(this.reading(this.trimmed(own + match[0])));
         if (whole === "squat" || this.first.crouches.test(own)) [left, action] = [left.slice(0, left.length - own.length) + SQUATS, "squat"];
       }
       if (stays && HOLDABLE.includes(action)) said = long ? `${HELD}${long[1]}${HELD}` : HELD;

@@ -158,15 +158,11 @@ def test_all_that_is_not_known_is_named(starter: TextToMotion):
     assert line is not None and "'violin'" in line and "'lies down' and 'juggles'" in line
 
 
-@pytest.mark.xfail(strict=True, reason="without it it is taken for a dance since section 72")
 def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
-    assert sentences.scope_warnings(["aplaude cuatro veces muy contento"]) != [None]
-
-
-def test_what_a_number_makes_known_is_not_warned_of(starter: TextToMotion):
-    sentences = SentenceGenerator(starter)
-    assert sentences.scope_warnings(["aplaude cuatro veces"]) == [None]
+    lines = sentences.scope_warnings(["aplaude cuatro veces", "aplaude cuatro veces muy contento"])
+    assert lines[0] is None and lines[1] is not None
+    assert lines[1].endswith("say it in other words")
     turned = ["dreht sich um 180 Grad und rennt weg", "er dreht sich um 90 Grad"]
     assert sentences.scope_warnings(turned) == [None, None]  # the angle says that it is a turn
 

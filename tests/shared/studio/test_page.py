@@ -102,6 +102,18 @@ def test_what_nobody_taught_is_told_as_by_the_command(
 
 
 @BROWSER
+def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
+    browser: Browser, generator: MotionGenerator
+) -> None:
+    prompt = "aplaude cuatro veces muy contento"
+    made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 1 }}], seed: 0 }}")
+    [line] = generator.sentences.scope_warnings([prompt])
+    assert line is not None
+    told = re.sub("'(.*?)'", r"“\1”", line.removeprefix("prompt "))
+    assert f"{told}." in text_of(browser, "warnings")
+
+
+@BROWSER
 @pytest.mark.parametrize(
     "prompt",
     ["a jogger runs in place", "she walks forward, then jumps", "he runs, then runs in place",
