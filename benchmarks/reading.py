@@ -1,12 +1,14 @@
 """What is read of development sentences, and which of them are warned of; moves nothing.
 
-    python -m benchmarks.reading [--model starter] [--json FILE]
+    python -m benchmarks.reading [--model starter] [--floor] [--json FILE]
 
 A sentence is read if it is one clause and its nearest action is the one it asks for; a spin may be
 read as a turn, and waves and goodbyes are one gesture. None of the sentences is one of training or
 of `evaluate-requests`. *Users* are more of them (users.yaml), by others who wrote as people would
 type: which of them are read, warned of though they are read, or misread in silence, and which that
-ask for other things are taken for something known. Those of another hand (other_hand.tsv, by
+ask for other things are taken for something known; with `--floor` also which of them the nearest
+training sentence reads, by words in common. *Moods* are clauses with a manner behind them
+(moods.yaml): what is done sadly is no sad walk. Those of another hand (other_hand.tsv, by
 somebody who had seen neither) are read if they come apart as they are meant: sequences, and orders
 and later ones, which say in many ways what comes first, into their actions, in order (a turn may be
 a walked corner or a spin and a jog a run), two things at once into two, styled walks into one walk.
@@ -18,15 +20,19 @@ from collections import defaultdict
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from src.shared.config_loader import parse_yaml
+from src.shared.data.captions.book import packaged_book
 from src.shared.evaluation.actions import same_action
-from src.shared.model.clip.out_of_domain import TWINS
+from src.shared.model.clip.out_of_domain import TWINS, words_of
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.pipelines.sentence import SITS, Clause
 from src.shared.pipelines.text import SentenceGenerator
 from src.shared.pipelines.words import STANDS
 
 SENTENCES = Path(__file__).with_name("development.yaml")
+MOODS = Path(__file__).with_name("moods.yaml")
 USERS = Path(__file__).with_name("users.yaml")
 OTHER_HAND = Path(__file__).with_name("other_hand.tsv")
 WILL_DO = {("turn", "walk"), ("jog", "run"), ("turn", "spin")}  # what it asks for, what is read
@@ -65,11 +71,26 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
     return {kind: sum(each) / len(each) for kind, each in groups.items()}
 
 
-def of_users(generator: TextToMotion) -> dict[str, Any]:
-    """Shares of users.yaml."""
+def users() -> list[tuple[str, str, str]]:
+    """Action, language and text of users.yaml."""
     entries = parse_yaml(USERS.read_text(encoding="utf-8"), USERS.name)
-    rows = [(entry["labels"]["action"], entry["language"], text)
+    return [(entry["labels"]["action"], entry["language"], text)
             for entry in entries for text in entry["text"]]  # fmt: skip
+
+
+def moods() -> list[tuple[str, str, str]]:
+    """Likewise of moods.yaml."""
+    return [
+        (action, entry["language"],
+         manner + clause if entry["language"] in ("ja", "zh") else f"{clause} {manner}")
+        for entry in parse_yaml(MOODS.read_text(encoding="utf-8"), MOODS.name)
+        for action, clause in entry["clauses"].items()
+        for manner in entry["manners"]
+    ]  # fmt: skip
+
+
+def shares(generator: TextToMotion, rows: list[tuple[str, str, str]]) -> dict[str, Any]:
+    """Of rows of action, language and text."""
     readings = generator.read([text for *_, text in rows])
     groups = defaultdict[str, list[bool]](list)
     for (action, language, _), reading in zip(rows, readings, strict=True):
@@ -83,8 +104,35 @@ def of_users(generator: TextToMotion) -> dict[str, Any]:
         groups["wrong-in-silence"].append(known and not right)
         if right:
             groups["warned-though-read"].append(not known)
-    sizes = {"sentences": len(groups["read"]), "others": len(groups["others-in-silence"])}
+    sizes = {"sentences": len(groups["read"]), "others": len(groups.get("others-in-silence", ()))}
     return sizes | {name: sum(each) / len(each) for name, each in groups.items()}
+
+
+def looked_up() -> float:
+    """Share of users.yaml that the training sentence of the same language with most words in common
+    asks for: by their weights (log of how rare they are), of those of both (Jaccard)."""
+    book, right = packaged_book(), list[bool]()
+    for code in book.languages:
+        taught = [
+            (labels["action"], frozenset(words_of(text)))
+            for labels in book.combinations()
+            for text in book.written(labels, code)
+        ]
+        places = defaultdict[str, list[int]](list)
+        for place, (_, words) in enumerate(taught):
+            for word in words:
+                places[word].append(place)
+        weight = {word: np.log(len(taught) / len(at)) for word, at in places.items()}
+        size = np.array([sum(weight[word] for word in words) for _, words in taught])
+        for action, language, text in users():
+            if language != code or action == "other":
+                continue
+            common, own = np.zeros(len(taught)), frozenset(words_of(text))
+            for word in own & places.keys():
+                common[places[word]] += weight[word]
+            whole = size + sum(weight.get(word, np.log(len(taught))) for word in own) - common
+            right.append(is_read(action, taught[int((common / whole).argmax())][0]))
+    return sum(right) / len(right)
 
 
 def figures(model: str) -> dict[str, Any]:
@@ -111,7 +159,8 @@ def figures(model: str) -> dict[str, Any]:
             name: sum(each) / max(len(each), 1)
             for name, each in (("read", doubted[True]), ("misread", doubted[False]))
         },
-        "users": of_users(generator),
+        "users": shares(generator, users()),
+        "moods": shares(generator, moods()),
         "of-another-hand": of_another_hand(sentences),
     }
 
@@ -120,9 +169,13 @@ def main() -> None:
     """Print them, or write them."""
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("--model", default="starter")
+    parser.add_argument("--floor", action="store_true")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
-    found = json.dumps(figures(options.model), indent=1, ensure_ascii=False)
+    told = figures(options.model)
+    if options.floor:
+        told["users"]["looked-up"] = looked_up()
+    found = json.dumps(told, indent=1, ensure_ascii=False)
     if options.json is not None:
         options.json.write_text(found + "\n", encoding="utf-8")
     print(found)

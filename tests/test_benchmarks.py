@@ -31,6 +31,7 @@ def test_most_development_sentences_are_read() -> None:
     users = found["users"]
     assert users["read"] > 0.95 and users["wrong-in-silence"] < 0.01
     assert users["warned-though-read"] < 0.12 and users["others-in-silence"] < 0.2
+    assert found["moods"]["read"] > 0.65 and found["moods"]["wrong-in-silence"] < 0.25
     assert found["sentences"] == 702 and set(LANGUAGES) <= set(found["read"])
     assert found["read"]["all"] > 0.9
     assert found["warned-of"]["read"] < 0.1 and found["warned-of"]["misread"] > 0.4
