@@ -7,11 +7,11 @@ read as a turn, and waves and goodbyes are one gesture. None of the sentences is
 of `evaluate-requests`. *Users* are more of them (users.yaml), by others who wrote as people would
 type: which of them are read, warned of though they are read, or misread in silence, and which that
 ask for other things are taken for something known; with `--floor` also which of them the nearest
-training sentence reads, by words in common. *Moods* are clauses with a manner behind them
-(moods.yaml): what is done sadly is no sad walk. Those of another hand (other_hand.tsv, by
-somebody who had seen neither) are read if they come apart as they are meant: sequences, and orders
-and later ones, which say in many ways what comes first, into their actions, in order (a turn may be
-a walked corner or a spin and a jog a run), two things at once into two, styled walks into one walk.
+training sentence reads, by words in common. *Moods* are actions done in a manner (moods.yaml, by
+two more): who bows sadly is no sad walker. Those of another hand (other_hand.tsv, by somebody who
+had seen neither) are read if they come apart as they are meant: sequences, and orders and later
+ones, which say in many ways what comes first, into their actions, in order (a turn may be a walked
+corner or a spin and a jog a run), two things at once into two, styled walks into one walk.
 """
 
 import argparse
@@ -71,22 +71,11 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
     return {kind: sum(each) / len(each) for kind, each in groups.items()}
 
 
-def users() -> list[tuple[str, str, str]]:
-    """Action, language and text of users.yaml."""
-    entries = parse_yaml(USERS.read_text(encoding="utf-8"), USERS.name)
+def rows_of(file: Path) -> list[tuple[str, str, str]]:
+    """Action, language and text of users.yaml or moods.yaml."""
+    entries = parse_yaml(file.read_text(encoding="utf-8"), file.name)
     return [(entry["labels"]["action"], entry["language"], text)
             for entry in entries for text in entry["text"]]  # fmt: skip
-
-
-def moods() -> list[tuple[str, str, str]]:
-    """Likewise of moods.yaml."""
-    return [
-        (action, entry["language"],
-         manner + clause if entry["language"] in ("ja", "zh") else f"{clause} {manner}")
-        for entry in parse_yaml(MOODS.read_text(encoding="utf-8"), MOODS.name)
-        for action, clause in entry["clauses"].items()
-        for manner in entry["manners"]
-    ]  # fmt: skip
 
 
 def shares(generator: TextToMotion, rows: list[tuple[str, str, str]]) -> dict[str, Any]:
@@ -124,7 +113,7 @@ def looked_up() -> float:
                 places[word].append(place)
         weight = {word: np.log(len(taught) / len(at)) for word, at in places.items()}
         size = np.array([sum(weight[word] for word in words) for _, words in taught])
-        for action, language, text in users():
+        for action, language, text in rows_of(USERS):
             if language != code or action == "other":
                 continue
             common, own = np.zeros(len(taught)), frozenset(words_of(text))
@@ -159,8 +148,8 @@ def figures(model: str) -> dict[str, Any]:
             name: sum(each) / max(len(each), 1)
             for name, each in (("read", doubted[True]), ("misread", doubted[False]))
         },
-        "users": shares(generator, users()),
-        "moods": shares(generator, moods()),
+        "users": shares(generator, rows_of(USERS)),
+        "moods": shares(generator, rows_of(MOODS)),
         "of-another-hand": of_another_hand(sentences),
     }
 

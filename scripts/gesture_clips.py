@@ -28,10 +28,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from src.shared.data.synthetic.actions import pose_arm
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.data.synthetic.rig import (
+    BALL_LEAD,
     FLEX,
     FPS,
     LEFT,
     RIGHT,
+    WRIST,
     Array,
     Body,
     Scene,
@@ -46,7 +48,12 @@ from src.shared.formats.registry import write_motion
 from src.shared.io.files import atomic_write
 from src.shared.motion.motion import Motion
 from src.shared.motion.rotations import quaternion_multiply
-from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.motion.skeleton import (
+    JOINT_INDEX,
+    LEG_LENGTH,
+    REST_FOOT_HEIGHT,
+    canonical_skeleton,
+)
 
 UPPER, FORE = 0.26, 0.25  # metres from shoulder to elbow and on to the wrist
 REST = 0.25  # seconds at rest before and after
@@ -523,32 +530,90 @@ def chop(scene: Scene) -> Body:
 
 
 def stab(scene: Scene) -> Body:
-    """A dagger raised high over the shoulder, driven down ahead with a lunge, pulled out."""
-    body = scene.standing()
-    up, high, lunge = strokes(scene, 0.68, 0.44, 0.16)
-    lunge = lunge * held(scene, 0.1, 0.4)
-    hand(body, RIGHT, up, (-0.07, -0.12, 0.48), elbow=DOWN, pronate=0)
-    hand(body, RIGHT, up * high, (0.05, 0.42, 0.0), elbow=(0.25, 0.75, 0.55), pronate=0)
-    pose_arm(body, LEFT, up, flex=12, abduct=28, elbow=70)
-    lean(body, (28 - 38 * high) * up, (22 - 42 * high) * up)
-    nod_by(body, 6 * up)
-    step(scene, body, RIGHT, 0.0, 0.50, SOON + 0.68, 0.42)
-    step(scene, body, RIGHT, 0.0, -0.50, end_of(scene) - REST - 0.42, 0.42)
-    sink(body, (0.15 - 0.07 * high) * lunge, back=-0.4)
+    """The left hand holds somebody, a dagger goes from the hip into the belly, again and again."""
+    body, up = scene.standing(width=0.24), held(scene, 0.6)
+    phase, _ = beats(scene, 0.85, 0.65)
+    thrust = bump(phase % 1.0, peak=0.4) * up
+    step(scene, body, LEFT, 0.02, 0.34, REST)
+    step(scene, body, LEFT, -0.02, -0.34, end_of(scene) - REST - 0.36)
+    hand(body, LEFT, up, (-0.10, 0.05, 0.40), elbow=(0.6, -0.8, 0.3), pronate=40)
+    hand(body, RIGHT, up, (0.02, -0.30, -0.14), elbow=BACK, pronate=-20)
+    hand(body, RIGHT, thrust, (-0.16, -0.22, 0.44), elbow=DOWN, pronate=-60)
+    lean(body, 8 * up + 12 * thrust, -26 * (up - thrust) + 18 * thrust)
+    nod_by(body, 10 * up, 12 * (up - thrust) - 8 * thrust)
+    sink(body, 0.08 * up + 0.05 * thrust, back=-0.2)
     return body
 
 
 def aim_gun(scene: Scene) -> Body:
-    """Sideways, a rifle at the right shoulder, cheek on it, slowly along a line."""
-    body, up = scene.standing(), held(scene, 0.6)
+    """A pistol held at the end of both arms, knees bent, from one side slowly to the other."""
+    body, up = scene.standing(width=0.3), held(scene, 0.6)
     pan = np.sin(2 * np.pi * beats(scene, 2.6, 0.7)[0]) * up
-    stance(scene, body, RIGHT, 0.34)
-    hand(body, LEFT, up, (0.24, 0.19, 0.39), elbow=(0.2, -0.8, 0.8), pronate=-40)
-    hand(body, RIGHT, up, (-0.17, 0.11, 0.13), elbow=(1.0, 0.25, -0.1), pronate=20)
-    body.yaw[:] += np.radians(-27) * up
-    lean(body, 8 * up, -27 * up + 12 * pan)
-    nod_by(body, 12 * up, 34 * up + 9 * pan, 22 * up)
-    sink(body, 0.05 * up)
+    stance(scene, body, RIGHT, 0.24)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.17, 0.08, 0.44), elbow=(0.3, -0.9, 0.5), pronate=0)
+    lean(body, 6 * up, 14 * pan)
+    nod_by(body, 6 * up, 0, 9 * up)
+    sink(body, 0.06 * up)
+    return body
+
+
+def drink(scene: Scene) -> Body:
+    """A glass to the mouth, the head back, and down again; in a long clip twice."""
+    body, up = scene.standing(), held(scene, 0.55)
+    number = 2 if end_of(scene) > 3.7 else 1
+    share = np.clip((scene.t - REST - 0.3) / (end_of(scene) - 2 * REST - 0.6), 0, 1) * number
+    sip = bump(np.clip((share % 1.0 - 0.1) / 0.8, 0, 1)) * (share < number)
+    sip = np.clip(1.6 * sip, 0, 1)
+    hand(body, RIGHT, up, (-0.08, -0.10, 0.30), elbow=(0.35, -1, 0.1), pronate=10)
+    hand(body, RIGHT, up * sip, (-0.13, 0.11, 0.19), elbow=(0.75, -0.5, 0.4), pronate=-10, wrist=15)
+    nod_by(body, 4 * up - 26 * sip * up)
+    lean(body, -5 * sip * up)
+    return body
+
+
+def push_up(scene: Scene) -> Body:
+    """From straight arms down and up again, the body a board on toes and hands, all clip long."""
+    body, t = scene.standing(width=0.16), scene.t
+    phase, _ = beats(scene, 1.4, 0.05)
+    depth = (1 - np.cos(2 * np.pi * phase)) / 2
+    heel = np.radians(72)
+    body.foot_pitch[:] = -heel
+    body.foot_yaw[:] = 0.0
+    body.spine[:], body.head[:] = 0.3 * body.spine, 0.3 * body.head
+    offsets = canonical_skeleton().offsets
+    hip, chest = (sum(offsets[JOINT_INDEX[j]] for j in names) for names in (
+        ("l_hip",), ("spine1", "spine2", "spine3", "l_collar", "l_shoulder")))  # fmt: skip
+    lead = offsets[JOINT_INDEX["l_foot"]]  # from the ankle to the ball of the foot
+    ankle_y = REST_FOOT_HEIGHT - (lead[1] * np.cos(heel) - lead[2] * np.sin(heel))
+    ankle_z = BALL_LEAD - (lead[2] * np.cos(heel) + lead[1] * np.sin(heel))
+    legs = 0.995 * LEG_LENGTH
+
+    def board(low: Array) -> tuple[Array, Array, Array]:
+        """Lean [T], pelvis and shoulders (height and way ahead) [T,2] for so low a chest [T]."""
+        high = 0.56 - 0.29 * low
+        tilt = np.arccos((high - ankle_y) / (legs - hip[1] + chest[1]))
+        up = np.stack([np.cos(tilt), np.sin(tilt)], -1)
+        ahead = np.stack([-np.sin(tilt), np.cos(tilt)], -1)
+        pelvis = np.array([ankle_y, ankle_z]) + (legs - hip[1]) * up - hip[2] * ahead
+        return tilt, pelvis, pelvis + chest[1] * up + chest[2] * ahead
+
+    tilt, pelvis, _ = board(depth)
+    body.pitch[:] = tilt
+    body.position[:, 1:] = pelvis
+    knots = np.linspace(0, 1, 7)
+    tilts, _, shoulders = board(knots)
+    floor = np.array([0.05, shoulders[0, 1] + 0.04])  # where the hands are
+    places = []
+    for each, (high, way) in zip(tilts, shoulders, strict=True):
+        y, z = floor[0] - high, floor[1] - way
+        places.append(
+            (0.08, y * np.cos(each) + z * np.sin(each), z * np.cos(each) - y * np.sin(each))
+        )
+    for side in (LEFT, RIGHT):
+        along(body, side, np.ones_like(t), tuple(places), 2 * depth - 1)
+        body.arms[:, side, WRIST] = np.radians(-75)
+    nod_by(body, 26)
     return body
 
 
@@ -716,6 +781,7 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "cross-arms": (cross_arms, 2.6, 5.0, ({},)),
     "dab": (dab, 2.0, 4.5, ({},)),
     "dodge": (dodge, 2.2, 4.5, DODGES),
+    "drink": (drink, 2.6, 5.0, ({},)),
     "drive": (drive, 2.5, 5.0, ({},)),
     "hammer": (hammer, 3.25, 5.0, ({},)),
     "hands-on-hips": (hands_on_hips, 2.4, 5.0, ({},)),
@@ -730,12 +796,13 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "press-button": (press_button, 2.3, 4.5, SIDED),
     "pull-lever": (pull_lever, 2.8, 4.7, ({},)),
     "push": (push, 2.8, 5.0, ({},)),
+    "push-up": (push_up, 2.0, 5.0, ({},)),
     "salute": (salute, 2.2, 4.5, ({},)),
     "shake-head": (shake_head, 2.0, 4.5, ({},)),
     "shiver": (shiver, 2.8, 5.0, ({},)),
     "shoot-gun": (shoot_gun, 2.8, 5.0, ({},)),
     "shrug": (shrug, 2.0, 4.5, ({},)),
-    "stab": (stab, 3.4, 5.0, ({},)),
+    "stab": (stab, 2.8, 5.0, ({},)),
     "stomp": (stomp, 2.6, 5.0, ({},)),
     "stretch": (stretch, 3.2, 5.0, ({},)),
     "talk": (talk, 2.8, 5.0, ({},)),

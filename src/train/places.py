@@ -10,10 +10,11 @@ those whose captions sound alike: it gets a direction of its own.
 import copy
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import torch
-from torch import Tensor
+from torch import Tensor, nn
 from torch.nn.functional import cross_entropy, kl_div, normalize, pad
 
 from ..shared.config_schema import PAIRS, NetworkConfig
@@ -52,11 +53,33 @@ def with_unstyled(labels: dict[str, Labels]) -> dict[str, Labels]:
 
 def with_sentences(labels: dict[str, Labels], combinations: Iterable[Labels]) -> dict[str, Labels]:
     """`labels` of each group, and those `combinations` of known actions and values that no clip
-    shows: who has seen walks, and happy runs, has a place for a happy walk."""
+    shows: who has seen walks, and runs to the left, has a place for a walk to the left."""
     known = {pair for each in labels.values() for pair in each.items()}
     spoken = [spoken_labels(each) for each in labels.values()]
     new = (each for each in combinations if each not in spoken and known >= each.items())
     return labels | {group_of(each): each for each in new}
+
+
+def with_manners(
+    labels: dict[str, Labels], shown: Iterable[Labels]
+) -> tuple[dict[str, Labels], dict[str, str]]:
+    """`labels` of each group and of each unstyled one in every style that is `shown` of others and
+    not of its action; and for each of these the group without its style.
+
+    An action in a manner that nobody has shown is the action: else "jumps happily" is nearest to
+    the happy walks that were shown.
+    """
+    styled = {(each.get("action"), each["style"]) for each in shown if "style" in each}
+    styles = sorted({style for _, style in styled})
+    found, plain_of = dict(labels), dict[str, str]()
+    for each in labels.values():
+        plain = {key: value for key, value in each.items() if key != "style"}
+        for style in [each["style"]] if "style" in each else styles:
+            if (each.get("action"), style) not in styled:
+                manner = plain | {"style": style}
+                found |= {group_of(plain): plain, group_of(manner): manner}
+                plain_of[group_of(manner)] = group_of(plain)
+    return found, plain_of
 
 
 def nearest_styles(data: PreparedData, labels: dict[str, Labels]) -> dict[str, str]:
@@ -130,6 +153,49 @@ def apart(
 
 def _combination(labels: Labels) -> Combination:
     return tuple(sorted((k, v) for k, v in spoken_labels(labels).items() if k != "style"))
+
+
+class LabelledTower(nn.Module):
+    """A text tower with the places that it learns and a classifier for each label.
+
+    Args:
+        tower: to be trained.
+        labels: of each combination; a label that it does not have is a class of its own.
+    """
+
+    def __init__(self, tower: TextTower, labels: Sequence[Labels]) -> None:
+        super().__init__()
+        self.tower = tower
+        self.places = nn.Parameter(torch.randn(len(labels), tower.embed_dim))
+        keys = sorted({key for each in labels for key in each})
+        values = {key: sorted({each.get(key, "") for each in labels}) for key in keys}
+        self.heads = nn.ModuleList(nn.Linear(tower.embed_dim, len(values[key])) for key in keys)
+        rows = [[values[key].index(each.get(key, "")) for key in keys] for each in labels]
+        self.register_buffer("classes", torch.tensor(rows), persistent=False)  # [G, keys]
+
+    def forward(self, batch: "TextBatch", scale: float) -> tuple[Tensor, Tensor]:
+        """Cross-entropies of the right place, of `scale` times the cosines, and of all labels."""
+        if batch.mean is None:
+            pooled = self.tower(batch.input_ids, batch.attention_mask).pooled  # [B, D]
+        else:
+            pooled = self.tower.pool(batch.mean)  # [B, D]
+        choice = cross_entropy(scale * pooled @ normalize(self.places, dim=-1).T, batch.group)
+        spread = pooled * pooled.shape[-1] ** 0.5
+        wanted = self.get_buffer("classes")[batch.group].unbind(-1)  # [B] a label
+        terms = [cross_entropy(h(spread), c) for h, c in zip(self.heads, wanted, strict=True)]
+        return choice, torch.stack(terms).sum()
+
+
+@dataclass(frozen=True)
+class TextBatch:
+    """input_ids, attention_mask [B,L]; group [B] index of the right place, P = none of them, -1 =
+    as it was read before; mean [B,H] where a frozen encoder has read the captions already, which
+    then have no ids."""
+
+    input_ids: Tensor
+    attention_mask: Tensor
+    group: Tensor
+    mean: Tensor | None = None
 
 
 AGREED = 0.55  # share of a combination's captions that one place takes

@@ -19,8 +19,6 @@ Letters: B batch, G label combinations, P places, D shared dimensions.
 
 import copy
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +30,6 @@ from torch.nn.functional import cross_entropy, kl_div, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTextConfig
 from ..shared.data.captions.book import drop_words, insert_babble, packaged_book, piece_of
-from ..shared.data.captions.schema import Labels
 from ..shared.data.prepared import group_of
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import sha256_file
@@ -57,11 +54,14 @@ from ..shared.model.generation.motion_generator import TextToMotion
 from .launch import STAGES
 from .places import (
     SAME_PLACE,
+    LabelledTower,
+    TextBatch,
     apart,
     fuller_sides,
     nearest_styles,
     own_places,
     with_fewer_rows,
+    with_manners,
     with_pairs,
     with_rows,
     with_sentences,
@@ -92,49 +92,6 @@ HEADS = 0.3  # weight of the labels beside the place, from nothing
 MANY = 40  # combinations of an action
 NEAR = 2.0  # weight of how far an embedding has gone beside that of the shares of places
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
-
-
-class LabelledTower(nn.Module):
-    """A text tower with the places that it learns and a classifier for each label.
-
-    Args:
-        tower: to be trained.
-        labels: of each combination; a label that it does not have is a class of its own.
-    """
-
-    def __init__(self, tower: TextTower, labels: Sequence[Labels]) -> None:
-        super().__init__()
-        self.tower = tower
-        self.places = nn.Parameter(torch.randn(len(labels), tower.embed_dim))
-        keys = sorted({key for each in labels for key in each})
-        values = {key: sorted({each.get(key, "") for each in labels}) for key in keys}
-        self.heads = nn.ModuleList(nn.Linear(tower.embed_dim, len(values[key])) for key in keys)
-        rows = [[values[key].index(each.get(key, "")) for key in keys] for each in labels]
-        self.register_buffer("classes", torch.tensor(rows), persistent=False)  # [G, keys]
-
-    def forward(self, batch: "TextBatch", scale: float) -> tuple[Tensor, Tensor]:
-        """Cross-entropies of the right place, of `scale` times the cosines, and of all labels."""
-        if batch.mean is None:
-            pooled = self.tower(batch.input_ids, batch.attention_mask).pooled  # [B, D]
-        else:
-            pooled = self.tower.pool(batch.mean)  # [B, D]
-        choice = cross_entropy(scale * pooled @ normalize(self.places, dim=-1).T, batch.group)
-        spread = pooled * pooled.shape[-1] ** 0.5
-        wanted = self.get_buffer("classes")[batch.group].unbind(-1)  # [B] a label
-        terms = [cross_entropy(h(spread), c) for h, c in zip(self.heads, wanted, strict=True)]
-        return choice, torch.stack(terms).sum()
-
-
-@dataclass(frozen=True)
-class TextBatch:
-    """input_ids, attention_mask [B,L]; group [B] index of the right place, P = none of them, -1 =
-    as it was read before; mean [B,H] where a frozen encoder has read the captions already, which
-    then have no ids."""
-
-    input_ids: Tensor
-    attention_mask: Tensor
-    group: Tensor
-    mean: Tensor | None = None
 
 
 class TextTask(Task):
@@ -174,7 +131,13 @@ class TextTask(Task):
             self.labels = with_unstyled(self.labels)
         if bundle is not None and config.tower == PAIRS:
             self.labels = with_sentences(self.labels, packaged_book().combinations())
+        self.plain_of: dict[str, str] = {}  # of combinations in a manner that no clip shows
+        if bundle is not None and (self.goes_on or config.tower == PAIRS):
+            shown = [record.labels for record in records]
+            self.labels, self.plain_of = with_manners(self.labels, shown)
         self.groups = sorted(self.labels)
+        rows = {group: row for row, group in enumerate(self.groups)}
+        self.read_as = torch.tensor([rows[self.plain_of.get(g, g)] for g in self.groups])  # [G]
         book, codes = packaged_book(), config.languages
         self.sentences = [
             {
@@ -197,7 +160,7 @@ class TextTask(Task):
         self.answers: Tensor | None = None  # of the receiver's denoiser, where it is not of `clip`
         if bundle is not None:
             if self.receiver is not None and self._reads_anew(self.receiver):
-                self.answers = self._answers(self.receiver)
+                self.answers = self._answers(self.receiver)[self.read_as]
             self.places = self._places()
             if config.tower == PAIRS:
                 self._replace_tower(bundle)
@@ -275,16 +238,21 @@ class TextTask(Task):
     def _own_places(self, bundle: ClipBundle) -> Tensor:
         """Which of the tower's own places each combination has [G]."""
         captions = self._captions(0, VOTES, whole=False)
-        said = [[text for texts in group.values() for text in texts] for group in captions]
-        labels = [self.labels[group] for group in self.groups]
-        return own_places(bundle.clip.text.eval(), bundle.tokenizer, said, labels)
+        shown = [row for row, group in enumerate(self.groups) if group not in self.plain_of]
+        said = [[text for texts in captions[row].values() for text in texts] for row in shown]
+        labels = [self.labels[self.groups[row]] for row in shown]
+        places = torch.zeros(len(self.groups), dtype=torch.long)
+        places[shown] = own_places(bundle.clip.text.eval(), bundle.tokenizer, said, labels)
+        return places[self.read_as]
 
     def _go_on(self, bundle: ClipBundle) -> None:
         """A tower with rows for the words of more sentences; the one that was there teaches it."""
         self.teacher = copy.deepcopy(bundle.clip.text).requires_grad_(False).train()
         self.teacher.encoder.eval()  # whole sentences, as they are before they are sent to places
         if self.config.pieces:
-            for each in self._captions(0, VOTES, whole=False):
+            for group, each in zip(self.groups, self._captions(0, VOTES, whole=False), strict=True):
+                if group in self.plain_of:  # it may misread these
+                    continue
                 self.whole = {code: self.whole.get(code, []) + each[code] for code in each}
         written = [text for each in self.sentences for texts in each.values() for text in texts]
         keys, counts = self._counted_keys(bundle.tokenizer, self._texts() + written)
@@ -305,25 +273,37 @@ class TextTask(Task):
 
     def _shares(self) -> np.ndarray:
         """How often a combination is drawn [G]: an action of n combinations weighs n^0.75 (of more
-        than MANY no more where a tower goes on, which knows them), and in it one of m hand-written
+        than MANY no more where a tower goes on, which knows them), a share of it the manners that
+        no clip shows, and in it one of m hand-written
         sentences sqrt(1 + m), PLAIN times that without a style: the words of plain ones stand in
         all others, too, and would ask for the middle of the styles."""
-        actions = [self.labels[group].get("action") for group in self.groups]
+        actions = [
+            None if group in self.plain_of else self.labels[group].get("action", "")
+            for group in self.groups
+        ]
         written = np.array([1 + sum(map(len, each.values())) for each in self.sentences]) ** 0.5
         written *= [1.0 if "style" in self.labels[group] else PLAIN for group in self.groups]
         weights = np.zeros(len(actions))
-        for action, number in Counter(actions).items():
+        for action, number in Counter(each for each in actions if each is not None).items():
             own = np.array([each == action for each in actions])
             number = min(number, MANY) if self.goes_on else number
             weights[own] = number**0.75 * written[own] / written[own].sum()
+        rows, share = self.read_as.numpy(), self.config.manners
+        manners = np.bincount(rows, minlength=len(rows)) - 1  # of each; -1 of one
+        said_so = share * weights[rows] / np.maximum(manners[rows], 1)
+        plain = np.where(manners > 0, 1 - share, 1) * weights
+        weights = np.where(manners < 0, said_so, plain)
         return np.asarray(weights / weights.sum())
 
     def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
-        """For each combination and language; without `whole`, of the grammar alone."""
+        """For each combination and language, of all manners of one as many as of one; without
+        `whole`, of the grammar alone."""
         book, kept = packaged_book(), self.config.languages
+        manners = Counter(self.plain_of.values())
+        shares = [manners[self.plain_of.get(group, "")] or 1 for group in self.groups]
         found = (
-            book.captions(self.labels[group], num=num, seed=seed, whole_sentences=whole)
-            for group in self.groups
+            book.captions(self.labels[g], num=-(-num // share), seed=seed, whole_sentences=whole)
+            for g, share in zip(self.groups, shares, strict=True)
         )
         return [
             {k: _taught(v, k) if whole else v for k, v in captions.items() if k in kept}
@@ -352,7 +332,7 @@ class TextTask(Task):
             found = nearest_styles(self.data, self.labels) | fuller_sides(self.data, self.labels)
             rows, taken = ([index[g] for g in each] for each in (found, found.values()))
             places[rows] = places[taken]
-        return places
+        return places[self.read_as]
 
     def _reads_anew(self, receiver: TextToMotion) -> bool:
         """Whether the receiver has places that are not those of `clip`: these are what texts are

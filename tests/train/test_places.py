@@ -10,10 +10,10 @@ from test_train_text import text_config
 from tiny_stage import clip_config, generation_config, tiny_network, train_clip, train_generation
 from torch.nn.functional import normalize
 
-from src.shared.data.prepared import PreparedData
+from src.shared.data.prepared import PreparedData, group_of
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.train import train_text
-from src.train.places import apart, fuller_sides, nearest_styles, with_unstyled
+from src.train.places import apart, fuller_sides, nearest_styles, with_manners, with_unstyled
 from src.train.train_text import TextTask, open_tower
 
 
@@ -85,6 +85,26 @@ def test_what_is_only_there_in_styles_is_asked_for_without() -> None:
         "d": {"action": "guide", "style": "tired"},
     }
     assert with_unstyled(labels) == labels | {"action=guide": {"action": "guide"}}
+
+
+def test_an_action_in_a_manner_that_no_clip_shows_is_the_action() -> None:
+    shown = [
+        {"action": "walk", "style": "sad"},
+        {"action": "bow", "style": "proud"},
+        {"action": "jump", "count": "2"},
+    ]
+    labels = {group_of(each): each for each in [*shown, {"action": "jump", "style": "odd"}]}
+    found, plain_of = with_manners(labels, shown)
+    assert plain_of == {
+        "action=jump|style=odd": "action=jump",
+        "action=jump|count=2|style=proud": "action=jump|count=2",
+        "action=jump|count=2|style=sad": "action=jump|count=2",
+    }
+    assert found == labels | {
+        "action=jump": {"action": "jump"},
+        "action=jump|count=2|style=proud": {"action": "jump", "count": "2", "style": "proud"},
+        "action=jump|count=2|style=sad": {"action": "jump", "count": "2", "style": "sad"},
+    }
 
 
 def test_a_new_action_has_a_direction_of_its_own() -> None:

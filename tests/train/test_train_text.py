@@ -138,6 +138,11 @@ def test_a_tower_with_places_goes_on_with_more_sentences(
         "choice-weight=2", "least-captions=2", "captions-per-group=24", f"most-rows={most}",
     )  # fmt: skip
     task = TextTask(config, tiny_network())
+    assert task.plain_of  # manners that no clip shows are asked of the action itself
+    for manner, plain in task.plain_of.items():
+        rows = [task.groups.index(group) for group in (manner, plain)]
+        assert task.place_of[rows[0]] == task.place_of[rows[1]]
+        assert task.shares[rows[0]] < task.shares[rows[1]]
     fresh = task.module.get_submodule("encoder").get_buffer("keys")
     assert len(fresh) > most  # those of hand-written sentences, too
     assert {each["action"] for each in task.labels.values()} <= set(old.card.tags)
