@@ -88,7 +88,7 @@ def _seen_by_frames(denoiser: nn.Module, name: str) -> bool:
     if last != "weight" or ADAPTERS in name:
         return False
     part = denoiser.get_submodule(whole)
-    return isinstance(part, AdaptedLinear) or whole in ("motion_proj", "known_proj", "output_proj")
+    return isinstance(part, AdaptedLinear) or whole in ("motion_proj", "known_proj")
 
 
 def vectors(denoiser: nn.Module) -> dict[str, Tensor]:
@@ -103,8 +103,9 @@ def vectors(denoiser: nn.Module) -> dict[str, Tensor]:
 class MotionDenoiser(nn.Module):
     """Noisy motion, step, text and tag -> noise, clean motion or v, as the config says.
 
-    With `adapter-ranks` the blocks have low-rank adapters. A text opens the one that the nearest of
-    `places` [P, D] belongs to: `adapter_of` [P]; 0 is none, and the network is what it was without.
+    With `adapter-ranks` the blocks and the output projection have low-rank adapters. A text opens
+    the one that the nearest of `places` [P, D] belongs to: `adapter_of` [P]; 0 is none, and the
+    network is what it was without.
 
     The output projection starts at zero, so the first prediction is the mean motion. With
     `frames-per-token` above 1 the blocks see so many frames as one token (the patches of Peebles
@@ -154,7 +155,9 @@ class MotionDenoiser(nn.Module):
             self.register_buffer("places", torch.zeros(config.clip.text_places, dim))
             self.register_buffer("adapter_of", torch.zeros(config.clip.text_places).long())
         self.output_norm = nn.LayerNorm(dim)
-        self.output_proj = zeroed(nn.Linear(dim, token_dim))
+        # Its input has a fixed length, so that it reaches no further from the mean than what was
+        # trained on: what an adapter learns may lie beyond.
+        self.output_proj = zeroed(AdaptedLinear(dim, token_dim, generation.adapter_ranks))
         self.refiner = FrameRefiner(motion_dim, dim // 2) if self.stride > 1 else None
         rank = generation.one_step_rank
         self.one_step = OneStep(self, rank) if rank else None
@@ -212,7 +215,7 @@ class MotionDenoiser(nn.Module):
         for index, block in enumerate(self.blocks):
             own = keys_values[index] if keys_values else None
             h = block(h, condition, mask, own, text.mask, text.opened)  # [B, T, D]
-        out = self.output_proj(self.output_norm(h))  # [B, T, stride*K*C]
+        out = self.output_proj(self.output_norm(h), text.opened)  # [B, T, stride*K*C]
         out = out.unflatten(-1, (self.stride, -1)).flatten(1, 2)[:, :frames]  # [B, frames, K*C]
         if self.refiner is not None:
             out = out + self.refiner(motion, out, frame_mask)  # [B, frames, K*C]

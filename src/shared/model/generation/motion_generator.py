@@ -501,6 +501,7 @@ class TextToMotion:
         )
 
 
+PROJECTED = "output_proj.adapters."
 Loaded = tuple[Any, Any, Tensor, Tensor]  # denoiser, text tower, mean and std [K, C]
 
 
@@ -514,6 +515,9 @@ def _from_weights(folder: Path, card: ModelCard) -> Loaded:
     if tower is not None and projection is not None:
         check_embed_dims(len(tower), projection.shape[1], f"the text tower in {folder}")
     denoiser = MotionDenoiser(card.network, len(card.tags))
+    own = {f"denoiser.{k}": v for k, v in denoiser.state_dict().items() if k.startswith(PROJECTED)}
+    if not own.keys() & tensors.keys():  # adapters of before had none
+        tensors |= {name: torch.zeros_like(value) for name, value in own.items()}
     load_state(denoiser, tensors, "denoiser", folder)
     text = TextTower(card.network.clip, card.network.embed_dim, encoder_config=card.text_encoder)
     load_state(text, tensors, "text", folder)

@@ -23,8 +23,8 @@ LayerT = TypeVar("LayerT", nn.Linear, nn.Conv1d)
 
 
 def zeroed(layer: LayerT) -> LayerT:
-    """The layer with zero weights: a residual branch that starts silent."""
-    for parameter in layer.parameters():
+    """The layer with zero weights, adapters aside: a residual branch that starts silent."""
+    for parameter in layer.parameters(recurse=False):
         nn.init.zeros_(parameter)
     return layer
 

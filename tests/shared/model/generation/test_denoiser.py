@@ -1,5 +1,6 @@
 """MotionDenoiser: TEXT's order and sizes, masks, the learned null, and that it learns."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -206,6 +207,29 @@ def test_provenance_can_be_learned_later(make_network):
         for each in (captured, procedural, unknown)
     ]
     assert all((a - b).abs().amax() > 1e-3 for a, b in pairwise([*told, out]))
+
+
+def test_an_adapter_reaches_further_from_the_mean_than_the_network(make_network):
+    """What goes into the output projection has a fixed length: with adapters in the blocks alone no
+    body lies down for a network that has seen it stand."""
+    torch.manual_seed(0)
+    model = alive(MotionDenoiser(make_network(adapter_ranks=(2, 4)), TAGS))
+    noisy, timesteps, features = inputs()
+    heard = (noisy, timesteps, features, torch.full((B,), TAGS))
+    before = model(*heard)
+    far = (20 * torch.randn(23, 6)).expand_as(noisy)
+    opened = replace(features, opened=torch.tensor([[0.0, 1.0]]).expand(B, 2))
+    for learning, least, most in (("blocks.", 0.5, 1.0), ("", 0.0, 0.1)):
+        for name, weight in model.named_parameters():
+            weight.requires_grad_(name.startswith(learning) and ".adapters.1." in name)
+        learner = torch.optim.Adam([w for w in model.parameters() if w.requires_grad], lr=0.05)
+        for _ in range(150):
+            loss = (model(noisy, timesteps, opened, heard[3]) - far).square().mean()
+            learner.zero_grad()
+            loss.backward()
+            learner.step()
+        assert least < loss.item() / far.square().mean().item() < most
+    assert torch.equal(model(*heard), before)
 
 
 def test_what_it_becomes_for_one_step(make_network):

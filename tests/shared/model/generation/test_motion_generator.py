@@ -13,7 +13,7 @@ from src.shared.errors import UsageError, UserError
 from src.shared.io.files import sha256_file, write_json
 from src.shared.model.checkpoint import CARD_FILE, WEIGHTS_FILE
 from src.shared.model.clip.core import TextTower
-from src.shared.model.generation.motion_generator import TextToMotion
+from src.shared.model.generation.motion_generator import PROJECTED, TextToMotion
 
 PROMPTS = ["a person walks forward", "somebody jumps twice", "人が前に歩く"]
 
@@ -184,6 +184,26 @@ def rewrite(folder, change) -> None:
     card["weights"]["sha256"] = sha256_file(folder / WEIGHTS_FILE)
     card["weights"]["bytes"] = (folder / WEIGHTS_FILE).stat().st_size
     write_json(folder / CARD_FILE, card)
+
+
+def test_adapters_of_before_leave_the_output_projection_as_it_is(make_generator, tmp_path):
+    generator = make_generator(adapter_ranks=(2, 3))
+    generator.save_pretrained(tmp_path)
+    with torch.no_grad():
+        wanted = {
+            name: torch.zeros_like(weight) if PROJECTED in name else weight
+            for name, weight in generator.denoiser.state_dict().items()
+        }
+    own = [f"denoiser.{name}" for name in wanted if PROJECTED in name]
+    first, *others = own
+    rewrite(tmp_path, lambda tensors: [tensors.pop(name) for name in own])
+    found = TextToMotion.from_pretrained(tmp_path, device="cpu").denoiser.state_dict()
+    assert others and all(torch.equal(found[name], weight) for name, weight in wanted.items())
+
+    generator.save_pretrained(tmp_path)
+    rewrite(tmp_path, lambda tensors: tensors.pop(first))
+    with pytest.raises(UserError, match="lack"):
+        TextToMotion.from_pretrained(tmp_path)
 
 
 def test_a_truncated_file(folder):
