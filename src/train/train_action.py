@@ -418,9 +418,9 @@ class ActionTask(Task):
         for action, own in said.items():
             texts = sorted(own)
             others = [text for each, of in said.items() if each != action for text in of]
-            embeddings = encode_captions(self.tower, self.before.tokenizer, texts).numpy()
+            rows = [row for row, r in enumerate(self.train.records) if r.tag == action]
             others += self._known_captions
-            scope = scope.with_action(action, texts, embeddings, others, taken)
+            scope = scope.with_action(action, texts, self.places[rows].numpy(), others, taken)
         arms, gesturing = done(scope.arms, arm_actions(data)), done(scope.gestures, gestures(data))
         scope = replace(scope, arms=arms, gestures=gesturing)
         before = self.before
