@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make clips by rule of actions that hardly any capture here shows: nods, throws, salutes ...
+"""Make clips by rule of actions that hardly any capture here shows: nods, throws, crawls ...
 
     python scripts/gesture_clips.py OUT [--each 24] [--seed 0] [--actions nod,throw]
 
@@ -28,11 +28,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from src.shared.data.synthetic.actions import pose_arm
 from src.shared.data.synthetic.clips import spec_for
 from src.shared.data.synthetic.rig import (
+    ABDUCT,
     BALL_LEAD,
+    ELBOW,
     FLEX,
     FPS,
     LEFT,
     RIGHT,
+    TWIST,
     WRIST,
     Array,
     Body,
@@ -766,6 +769,304 @@ def dodge(scene: Scene) -> Body:
     return body
 
 
+# ------------------------------------------------------------ on the floor
+
+
+def down(body: Body, sit: Array, flat: Array) -> None:
+    """Sit down behind the feet, knees up, by `sit` [T], and by `flat` [T] lie back, legs out."""
+    mid = 4 * sit * (1 - sit)
+    body.position[:, 1] += sit * (0.13 - body.position[:, 1])
+    body.position[:, 2] -= 0.46 * sit
+    body.pitch[:] += np.radians(32 * mid - 12 * sit * (1 - flat) - 84 * flat)
+    body.spine[:, 0] += np.radians(14 * mid + 22 * sit * (1 - flat) + 26 * 4 * flat * (1 - flat))
+    body.ball[..., 2] += (0.34 * flat)[:, None]
+    body.ball[..., 1] += (0.17 * flat)[:, None]
+    body.foot_pitch[:] += np.radians(66 * flat)[:, None]
+    body.foot_yaw[:] *= 1 + 2 * flat[:, None]
+    body.contacts[flat > 0.05] = 0.0
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, mid, flex=48, abduct=14, elbow=20)
+        pose_arm(body, side, sit * (1 - flat), flex=-42, abduct=22, elbow=12, twist=-10, wrist=-60)
+        pose_arm(body, side, flat, flex=2, abduct=17, elbow=12)
+    nod_by(body, -58 * flat)  # the rig's head looks ahead; here it lies
+
+
+def lie_down(scene: Scene) -> Body:
+    """Sit down on the floor and lie back."""
+    body = scene.standing(width=0.22)
+    down(body, moment(scene, (0, 0), (1.3, 1)), moment(scene, (1.2, 0), (2.5, 1)))
+    return body
+
+
+def get_up(scene: Scene) -> Body:
+    """From lying on the back over sitting to standing."""
+    body = scene.standing(width=0.22)
+    down(body, 1 - moment(scene, (1.2, 0), (2.6, 1)), 1 - moment(scene, (0, 0), (1.25, 1)))
+    return body
+
+
+def sleep(scene: Scene) -> Body:
+    """On the back, hands on the belly, breathing slowly."""
+    body, one = scene.standing(width=0.22), np.ones_like(scene.t)
+    down(body, one, one)
+    breath = np.sin(2 * np.pi * scene.t / 3.4)
+    for side, height in ((LEFT, -0.25), (RIGHT, -0.30)):
+        hand(body, side, one, (-0.14, height, 0.19), elbow=(0.9, -0.6, -0.1))
+    body.spine[:, 0] -= np.radians(1.6) * breath
+    nod_by(body, 4, 22)
+    return body
+
+
+def sit_floor(scene: Scene) -> Body:
+    """Down onto the floor, knees up, arms around them."""
+    body = scene.standing(width=0.22)
+    sit = moment(scene, (0, 0), (1.4, 1))
+    down(body, sit, 0 * sit)
+    around = moment(scene, (1.3, 0), (2.0, 1))
+    for side in (LEFT, RIGHT):
+        hand(body, side, around, (-0.06, -0.22, 0.44), elbow=(0.5, -0.9, 0.2))
+    body.spine[:, 0] += np.radians(8) * around
+    return body
+
+
+def die(scene: Scene) -> Body:
+    """Hit in the chest, the knees give way, down onto the back, and still."""
+    body = scene.standing(width=0.22)
+    hit = moment(scene, (0, 0), (0.22, 1), (0.7, 0))
+    down(body, moment(scene, (0.3, 0), (1.05, 1)), moment(scene, (0.62, 0), (1.35, 1)))
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, hit, flex=58, abduct=42, elbow=50)
+        out = moment(scene, (0.9, 0), (1.4, 1))
+        pose_arm(body, side, out, flex=5, abduct=66, elbow=18)
+    lean(body, -16 * hit)
+    nod_by(body, -12 * hit, 18 * moment(scene, (1.1, 0), (1.45, 1)))
+    return body
+
+
+def crouch(scene: Scene) -> Body:
+    """Down on bent knees, and there it stays."""
+    body = scene.standing(width=0.26)
+    low = moment(scene, (0, 0), (1.0, 1))
+    sink(body, 0.48 * low, back=0.25)
+    lean(body, 44 * low)
+    nod_by(body, 8 * low)
+    for side in (LEFT, RIGHT):
+        hand(body, side, low, (-0.05, -0.28, 0.36), elbow=(0.5, -1, 0.1))
+    return body
+
+
+def face_down(body: Body, height: Array | float, tilt: float) -> None:
+    """The trunk level, face down, the gaze a little ahead."""
+    body.position[:, 1] = height
+    body.pitch[:] = np.radians(tilt)
+    body.spine[:] *= 0.3
+    body.foot_yaw[:] = 0.0
+    nod_by(body, 30)
+
+
+def crawl(scene: Scene) -> Body:
+    """On hands and knees ahead: a hand and the other side's knee at a time."""
+    body, t = scene.standing(width=0.2), scene.t
+    pace, period = 0.42, 1.1
+    face_down(body, 0.44, 76)
+    body.position[:, 2] += pace * t
+    body.foot_pitch[:] = np.radians(-84)
+    for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
+        phase = (t / period + late) % 1.0
+        swing = np.clip((phase - 0.55) / 0.45, 0, 1)
+        way = np.where(phase < 0.55, 1 - phase / 0.55, 0.0) + min_jerk(swing)  # 1 far ahead
+        lift = bump(swing)
+        body.ball[:, side, 2] = body.position[:, 2] - 0.56 + pace * period * 0.55 * (way - 0.5)
+        body.ball[:, side, 1] = 0.055 + 0.02 * lift
+        body.contacts[:, side] = 0.0
+        arm = other(side)
+        line = tuple((0.02, 0.06 + ahead, 0.47) for ahead in (-0.13, -0.06, 0.0, 0.06, 0.13))
+        along(body, arm, np.ones_like(t), line, 2 * way - 1)
+        hand(body, arm, 0.8 * lift, (0.03, 0.12, 0.36), elbow=(0.5, -0.9, 0.1))
+        body.arms[:, arm, WRIST] = np.radians(-70)
+    sway = np.sin(2 * np.pi * t / period)
+    body.roll[:] += np.radians(3) * sway
+    body.spine[:, 1] += np.radians(5) * sway
+    return body
+
+
+def swim(scene: Scene) -> Body:
+    """Face down as on water: one arm after the other over the head and through, the legs beat."""
+    body, t = scene.standing(width=0.16), scene.t
+    face_down(body, 0.55, 84)
+    for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
+        turn = 2 * np.pi * (t / 1.4 + late)
+        body.arms[:, side, FLEX] = np.radians(88) + np.radians(84) * np.cos(turn)
+        body.arms[:, side, ABDUCT] = np.radians(14) + np.radians(34) * np.clip(-np.sin(turn), 0, 1)
+        body.arms[:, side, TWIST] = 0.0
+        body.arms[:, side, ELBOW] = np.radians(16) + np.radians(40) * np.clip(-np.sin(turn), 0, 1)
+        beat = np.sin(2 * np.pi * (t / 0.47 + late))
+        body.ball[:, side, 2] = body.position[:, 2] - 0.93
+        body.ball[:, side, 1] = 0.52 + 0.13 * beat
+        body.foot_pitch[:, side] = np.radians(-110)
+        body.contacts[:, side] = 0.0
+    body.roll[:] += np.radians(16) * np.cos(2 * np.pi * t / 1.4)
+    return body
+
+
+def fly(scene: Scene) -> Body:
+    """Face down in the air, both arms stretched ahead, banking a little."""
+    body, t = scene.standing(width=0.12), scene.t
+    face_down(body, 1.05, 80)
+    bank = np.sin(2 * np.pi * t / 2.6)
+    body.position[:, 1] += 0.04 * np.sin(2 * np.pi * t / 1.9)
+    body.roll[:] += np.radians(12) * bank
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, np.ones_like(t), flex=165, abduct=8, elbow=8, twist=0)
+        body.ball[:, side, 2] = body.position[:, 2] - 0.93
+        body.ball[:, side, 1] = body.position[:, 1] - 0.06 + 0.03 * sign_of(side) * bank
+        body.foot_pitch[:, side] = np.radians(-120)
+        body.contacts[:, side] = 0.0
+    return body
+
+
+# ------------------------------------------------------------ more of the whole body
+
+
+def cheer(scene: Scene) -> Body:
+    """Both arms up, fists shaken, in small jumps."""
+    body, up = scene.standing(width=0.24), held(scene, 0.4)
+    phase, _ = beats(scene, 0.62, 0.3)
+    share = phase % 1.0
+    air = np.where(
+        (phase > 0) & (phase < phase.max()), np.clip(1 - ((share - 0.5) / 0.3) ** 2, 0, 1), 0
+    )
+    body.ball[..., 1] += (0.09 * air)[:, None]
+    body.position[:, 1] += 0.12 * air - 0.06 * (1 - air) * up
+    body.contacts[air > 0.05] = 0.0
+    body.foot_pitch[:] -= (0.5 * air)[:, None]
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, up, flex=30, abduct=140, twist=20, elbow=35)
+        body.arms[:, side, ELBOW] += np.radians(26) * (1 - air) * up
+    nod_by(body, -14 * up)
+    return body
+
+
+def block(scene: Scene) -> Body:
+    """Both forearms go up before the face, the body back and low."""
+    body, up = scene.standing(width=0.26), held(scene, 0.3)
+    stance(scene, body, RIGHT, 0.28)
+    for side in (LEFT, RIGHT):
+        hand(body, side, up, (-0.16, 0.20, 0.22), elbow=(0.35, -0.9, 0.8), pronate=0)
+    lean(body, -9 * up, -10 * up)
+    nod_by(body, 20 * up)
+    sink(body, 0.13 * up)
+    return body
+
+
+def hop(scene: Scene) -> Body:
+    """On the right foot, the left held up behind, on the spot."""
+    body = scene.standing(width=0.12)
+    up = held(scene, 0.35)
+    phase, _ = beats(scene, 0.62, 0.4)
+    share = phase % 1.0
+    air = np.where(
+        (phase > 0) & (phase < phase.max()), np.clip(1 - ((share - 0.5) / 0.32) ** 2, 0, 1), 0
+    )
+    body.ball[:, LEFT, 1] += 0.34 * up
+    body.ball[:, LEFT, 2] -= 0.26 * up
+    body.foot_pitch[:, LEFT] -= 0.9 * up
+    body.ball[..., 1] += (0.13 * air)[:, None]
+    body.position[:, 1] += 0.15 * air - 0.09 * (1 - air) * up
+    body.position[:, 0] -= 0.05 * up
+    body.contacts[air > 0.05] = 0.0
+    body.contacts[up > 0.05, LEFT] = 0.0
+    body.foot_pitch[:, RIGHT] -= 0.5 * air
+    for side in (LEFT, RIGHT):
+        pose_arm(body, side, up, flex=24, abduct=30, elbow=62)
+        body.arms[:, side, ABDUCT] += np.radians(14) * air
+    lean(body, 8 * up)
+    return body
+
+
+def get_hit(scene: Scene) -> Body:
+    """A blow into the face: head and trunk are thrown back and turned, a step back to stay up."""
+    body = scene.standing(width=0.22)
+    hit = moment(scene, (0.15, 0), (0.36, 1), (0.6, 0.85), (1.5, 0))
+    nod_by(body, -30 * hit, 38 * hit)
+    lean(body, -22 * hit, 26 * hit)
+    step(scene, body, RIGHT, -0.06, -0.36, SOON + 0.3, 0.3)
+    step(scene, body, RIGHT, 0.06, 0.36, SOON + 1.4, 0.42)
+    sink(body, 0.12 * hit)
+    pose_arm(body, LEFT, hit, flex=52, abduct=40, elbow=46)
+    pose_arm(body, RIGHT, hit, flex=26, abduct=48, elbow=30)
+    rub = moment(scene, (0.95, 0), (1.3, 1), (1.75, 1), (2.2, 0))
+    hand(body, RIGHT, rub, (-0.08, 0.14, 0.15), elbow=(0.5, -0.9, 0.3))
+    return body
+
+
+def fist_pump(scene: Scene) -> Body:
+    """A fist pulled down to the hip, the knee up: yes!"""
+    body, up = scene.standing(width=0.24), held(scene, 0.35)
+    phase, _ = beats(scene, 0.9, 0.35)
+    pull = bump(np.clip(phase % 1.0 / 0.9, 0, 1), peak=0.35) * (phase < phase.max())
+    hand(body, RIGHT, up, (0.06, 0.34, 0.16), elbow=(0.7, 0.1, 0.7), pronate=-40)
+    hand(body, RIGHT, up * pull, (0.05, -0.10, 0.16), elbow=(0.5, -0.9, -0.5), pronate=-60)
+    pose_arm(body, LEFT, up, flex=14, abduct=20, elbow=70)
+    lean(body, 16 * pull * up, -10 * up + 14 * pull * up)
+    nod_by(body, 10 * pull * up)
+    sink(body, 0.10 * pull * up)
+    return body
+
+
+def confused(scene: Scene) -> Body:
+    """A hand scratches the head, which tilts from one side to the other."""
+    body, up = scene.standing(), held(scene, 0.6)
+    scratch = quiver(scene, 2.6) * up
+    hand(body, RIGHT, up, (-0.07, 0.27, 0.04), elbow=(1.0, 0.1, 0.4), pronate=20)
+    body.arms[:, RIGHT, ELBOW] += np.radians(5) * scratch
+    hand(body, LEFT, up, (-0.03, -0.35, 0.03), elbow=(1.0, -0.6, -0.35), pronate=60)
+    phase, _ = beats(scene, 2.4, 0.5)
+    side = np.sin(2 * np.pi * phase) * up
+    nod_by(body, 5 * up, 12 * side, 15 * side)
+    lean(body, 0, 5 * side, -3 * up)
+    return body
+
+
+def dizzy(scene: Scene) -> Body:
+    """A hand at the brow, the body goes round over its feet, the knees soft."""
+    body, up = scene.standing(width=0.26), held(scene, 0.6)
+    phase, _ = beats(scene, 1.7, 0.3)
+    round_, over = np.sin(2 * np.pi * phase) * up, np.cos(2 * np.pi * phase) * up
+    hand(body, RIGHT, up, (-0.12, 0.22, 0.16), elbow=(0.7, -0.6, 0.5))
+    pose_arm(body, LEFT, up, flex=20, abduct=38, elbow=26)
+    lean(body, 9 * up + 9 * over, 0, 13 * round_)
+    nod_by(body, 12 * up + 8 * over, 0, 12 * round_)
+    body.position[:, 0] += 0.07 * round_
+    body.position[:, 2] += 0.04 * over
+    sink(body, 0.06 * up)
+    return body
+
+
+def listen(scene: Scene) -> Body:
+    """A hand behind the ear, the head turned and leaned that way."""
+    body, up = scene.standing(), held(scene, 0.6)
+    hand(body, RIGHT, up, (0.0, 0.24, 0.08), elbow=(1.0, -0.1, 0.4), pronate=-40)
+    near = np.sin(2 * np.pi * beats(scene, 2.4, 0.6)[0]) * up
+    nod_by(body, 4 * up, 24 * up + 4 * near, -14 * up)
+    lean(body, 14 * up + 4 * near, 12 * up, -8 * up)
+    return body
+
+
+def fight_stance(scene: Scene) -> Body:
+    """Fists before the chin, one foot back, swaying on soft knees."""
+    body, up = scene.standing(width=0.26), held(scene, 0.45)
+    stance(scene, body, RIGHT, 0.32)
+    sway = np.sin(2 * np.pi * beats(scene, 0.72, 0.45)[0]) * up
+    for side, ahead in ((LEFT, 0.34), (RIGHT, 0.22)):
+        hand(body, side, up, (-0.10, 0.06, ahead), elbow=(0.4, -1, 0.2), pronate=30)
+    lean(body, 10 * up + 2 * sway, -20 * up)
+    nod_by(body, 8 * up, 16 * up)
+    body.position[:, 2] += 0.025 * sway
+    sink(body, 0.09 * up + 0.025 * sway)
+    return body
+
+
 Maker = Callable[[Scene], Body]
 Labels = dict[str, str]
 SIDED: tuple[Labels, ...] = ({}, {"side": "left"}, {"side": "right"})
@@ -773,21 +1074,36 @@ DODGES: tuple[Labels, ...] = ({}, {"direction": "left"}, {"direction": "right"})
 ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     # maker, shortest and longest in seconds, labels beside the action
     "aim-gun": (aim_gun, 2.8, 5.0, ({},)),
+    "block": (block, 2.2, 4.5, ({},)),
     "blow-kiss": (blow_kiss, 2.9, 4.5, ({},)),
     "cast-spell": (cast_spell, 2.9, 4.5, ({},)),
     "check-watch": (check_watch, 2.2, 4.5, ({},)),
+    "cheer": (cheer, 2.2, 5.0, ({},)),
     "chop": (chop, 3.45, 5.0, ({},)),
+    "confused": (confused, 2.8, 5.0, ({},)),
     "cover-face": (cover_face, 2.6, 5.0, ({},)),
+    "crawl": (crawl, 2.4, 5.0, ({},)),
     "cross-arms": (cross_arms, 2.6, 5.0, ({},)),
+    "crouch": (crouch, 2.2, 4.5, ({},)),
     "dab": (dab, 2.0, 4.5, ({},)),
+    "die": (die, 2.4, 4.5, ({},)),
+    "dizzy": (dizzy, 2.8, 5.0, ({},)),
     "dodge": (dodge, 2.2, 4.5, DODGES),
     "drink": (drink, 2.6, 5.0, ({},)),
     "drive": (drive, 2.5, 5.0, ({},)),
+    "fight-stance": (fight_stance, 2.4, 5.0, ({},)),
+    "fist-pump": (fist_pump, 2.2, 4.5, ({},)),
+    "fly": (fly, 2.2, 5.0, ({},)),
+    "get-hit": (get_hit, 2.6, 4.5, ({},)),
+    "get-up": (get_up, 3.1, 4.7, ({},)),
     "hammer": (hammer, 3.25, 5.0, ({},)),
     "hands-on-hips": (hands_on_hips, 2.4, 5.0, ({},)),
+    "hop": (hop, 2.2, 5.0, ({},)),
     "hug": (hug, 3.2, 5.0, ({},)),
     "jumping-jacks": (jumping_jacks, 2.6, 5.0, ({},)),
     "laugh": (laugh, 2.8, 5.0, ({},)),
+    "lie-down": (lie_down, 3.1, 5.0, ({},)),
+    "listen": (listen, 2.4, 5.0, ({},)),
     "nod": (nod, 2.0, 4.5, ({},)),
     "open-door": (open_door, 3.5, 5.0, ({},)),
     "pick-up": (pick_up, 3.1, 4.7, ({},)),
@@ -802,9 +1118,12 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "shiver": (shiver, 2.8, 5.0, ({},)),
     "shoot-gun": (shoot_gun, 2.8, 5.0, ({},)),
     "shrug": (shrug, 2.0, 4.5, ({},)),
+    "sit-floor": (sit_floor, 2.6, 5.0, ({},)),
+    "sleep": (sleep, 2.4, 5.0, ({},)),
     "stab": (stab, 2.8, 5.0, ({},)),
     "stomp": (stomp, 2.6, 5.0, ({},)),
     "stretch": (stretch, 3.2, 5.0, ({},)),
+    "swim": (swim, 2.4, 5.0, ({},)),
     "talk": (talk, 2.8, 5.0, ({},)),
     "throw": (throw, 2.9, 4.7, SIDED),
 }  # fmt: skip
