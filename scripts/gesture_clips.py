@@ -576,9 +576,11 @@ def drink(scene: Scene) -> Body:
 
 
 def push_up(scene: Scene) -> Body:
-    """From straight arms down and up again, the body a board on toes and hands, all clip long."""
+    """From straight arms down and up again, the body a board on toes and hands; before and after,
+    the hips are up, so that it can be seen where in the clip a frame is."""
     body, t = scene.standing(width=0.16), scene.t
-    phase, _ = beats(scene, 1.4, 0.05)
+    phase, _ = beats(scene, 1.25, 0.4)
+    ready = 1 - held(scene, 0.55, at=0.05)
     depth = (1 - np.cos(2 * np.pi * phase)) / 2
     heel = np.radians(72)
     body.foot_pitch[:] = -heel
@@ -602,8 +604,10 @@ def push_up(scene: Scene) -> Body:
         return tilt, pelvis, pelvis + chest[1] * up + chest[2] * ahead
 
     tilt, pelvis, _ = board(depth)
-    body.pitch[:] = tilt
+    body.pitch[:] = tilt + np.radians(20) * ready
+    body.spine[:, 0] -= np.radians(20) * ready
     body.position[:, 1:] = pelvis
+    body.position[:, 1] += 0.10 * ready
     knots = np.linspace(0, 1, 7)
     tilts, _, shoulders = board(knots)
     floor = np.array([0.05, shoulders[0, 1] + 0.04])  # where the hands are
@@ -869,14 +873,19 @@ def crawl(scene: Scene) -> Body:
     body, t = scene.standing(width=0.2), scene.t
     pace, period = 0.42, 1.1
     face_down(body, 0.44, 76)
-    body.position[:, 2] += pace * t
+    go = ramp(t, 0.15, 0.5)  # first it sits back: so it can be seen where in the clip a frame is
+    gone = np.cumsum(go) / FPS
+    body.position[:, 2] += pace * gone - 0.10 * (1 - go)
+    body.position[:, 1] -= 0.06 * (1 - go)
+    body.head[:, 0] += np.radians(25) * (1 - go)
     body.foot_pitch[:] = np.radians(-84)
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
-        phase = (t / period + late) % 1.0
+        phase = (gone / period + late) % 1.0
         swing = np.clip((phase - 0.55) / 0.45, 0, 1)
         way = np.where(phase < 0.55, 1 - phase / 0.55, 0.0) + min_jerk(swing)  # 1 far ahead
         lift = bump(swing)
-        body.ball[:, side, 2] = body.position[:, 2] - 0.56 + pace * period * 0.55 * (way - 0.5)
+        knee = pace * gone - 0.56 + pace * period * 0.55 * (way - 0.5)
+        body.ball[:, side, 2] = knee
         body.ball[:, side, 1] = 0.055 + 0.02 * lift
         body.contacts[:, side] = 0.0
         arm = other(side)
@@ -884,28 +893,32 @@ def crawl(scene: Scene) -> Body:
         along(body, arm, np.ones_like(t), line, 2 * way - 1)
         hand(body, arm, 0.8 * lift, (0.03, 0.12, 0.36), elbow=(0.5, -0.9, 0.1))
         body.arms[:, arm, WRIST] = np.radians(-70)
-    sway = np.sin(2 * np.pi * t / period)
+    sway = np.sin(2 * np.pi * gone / period) * go
     body.roll[:] += np.radians(3) * sway
     body.spine[:, 1] += np.radians(5) * sway
     return body
 
 
 def swim(scene: Scene) -> Body:
-    """Face down as on water: one arm after the other over the head and through, the legs beat."""
+    """Face down as on water: after a glide, both arms ahead, one after the other goes through and
+    over the head, and the legs beat."""
     body, t = scene.standing(width=0.16), scene.t
     face_down(body, 0.55, 84)
+    go = ramp(t, 0.3, 0.5)
+    gone = np.cumsum(go) / FPS
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
-        turn = 2 * np.pi * (t / 1.4 + late)
+        late = late * go
+        turn = 2 * np.pi * (gone / 1.4 + late)
         body.arms[:, side, FLEX] = np.radians(88) + np.radians(84) * np.cos(turn)
         body.arms[:, side, ABDUCT] = np.radians(14) + np.radians(34) * np.clip(-np.sin(turn), 0, 1)
         body.arms[:, side, TWIST] = 0.0
         body.arms[:, side, ELBOW] = np.radians(16) + np.radians(40) * np.clip(-np.sin(turn), 0, 1)
-        beat = np.sin(2 * np.pi * (t / 0.47 + late))
+        beat = np.sin(2 * np.pi * (gone / 0.47 + late)) * go
         body.ball[:, side, 2] = body.position[:, 2] - 0.93
         body.ball[:, side, 1] = 0.52 + 0.13 * beat
         body.foot_pitch[:, side] = np.radians(-110)
         body.contacts[:, side] = 0.0
-    body.roll[:] += np.radians(16) * np.cos(2 * np.pi * t / 1.4)
+    body.roll[:] += np.radians(16) * np.cos(2 * np.pi * gone / 1.4) * go
     return body
 
 
@@ -1112,7 +1125,7 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "press-button": (press_button, 2.3, 4.5, SIDED),
     "pull-lever": (pull_lever, 2.8, 4.7, ({},)),
     "push": (push, 2.8, 5.0, ({},)),
-    "push-up": (push_up, 2.0, 5.0, ({},)),
+    "push-up": (push_up, 2.6, 5.0, ({},)),
     "salute": (salute, 2.2, 4.5, ({},)),
     "shake-head": (shake_head, 2.0, 4.5, ({},)),
     "shiver": (shiver, 2.8, 5.0, ({},)),

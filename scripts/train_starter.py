@@ -59,7 +59,8 @@ ADAPTED = {
     "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
               ("steps=4000",)),
 }  # fmt: skip
-GESTURES = ["rank=20", "steps=3600", "tower-steps=4500", "ema-decay=0.998", "whole=true"]
+GESTURES = ["rank=20", "steps=3600", "tower-steps=4500", "learning-rate=2e-3", "ema-decay=0.998",
+            "whole=true"]  # fmt: skip
 LEAST_CLIPS = 2  # of an action, to be learned
 TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"

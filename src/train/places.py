@@ -233,11 +233,11 @@ def own_places(
         if name not in homes and place not in homes.values():
             homes[name] = place
     at = [homes.get(name, place) for name, place in zip(names, best.tolist(), strict=True)]
-    rows = list(zip(names, kinds, bare, at, shares, strict=True))
+    owners = votes.argmax(0).tolist()  # [P], of rows: a place is of that action
     found = {
         name: place
-        for name, kind, home, place, share in rows
-        if name == kind and (share >= AGREED or name == home)
+        for name, kind, home, place, share in zip(names, kinds, bare, at, shares, strict=True)
+        if name == kind and (name == home or (share >= AGREED and bare[owners[place]] == home))
     }
     split = {name: row for row, name in enumerate(names) if kinds[row] == name not in found}
     wanted = [

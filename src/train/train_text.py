@@ -121,7 +121,8 @@ class TextTask(Task):
         self.labels = {record.group: record.labels for record in records if record.labels}
         tags = set(bundle.card.tags) if bundle is not None and self.goes_on else None
         if tags is not None:  # what it knows it goes on with, whatever the data shows of it
-            told = [*self.labels.values(), *packaged_book().combinations()]
+            told = [{"action": tag} for tag in tags if tag]
+            told += [*self.labels.values(), *packaged_book().combinations()]
             self.labels = {group_of(each): each for each in told if each.get("action") in tags}
         if not self.labels:
             raise UserError(

@@ -154,13 +154,14 @@ def test_what_is_asked_for_often_or_held_keeps_its_time(
 
 def test_all_that_is_not_known_is_named(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
-    (line,) = sentences.scope_warnings(["plays the violin, then lies down and juggles"])
-    assert line is not None and "'violin'" in line and "'lies down' and 'juggles'" in line
+    (line,) = sentences.scope_warnings(["plays the violin, then knits a scarf and juggles"])
+    assert line is not None and "'violin'" in line
+    assert "'knits' and 'juggles'" in line
 
 
 def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
-    lines = sentences.scope_warnings(["aplaude cuatro veces", "aplaude cuatro veces muy contento"])
+    lines = sentences.scope_warnings(["punches three times", "punches three times like a kangaroo"])
     assert lines[0] is None and lines[1] is not None
     assert lines[1].endswith("say it in other words")
     turned = ["dreht sich um 180 Grad und rennt weg", "er dreht sich um 90 Grad"]
@@ -438,9 +439,9 @@ def test_who_stands_further_on_is_led_there_at_once(
 def test_claps_of_an_edit_are_seen_as_they_are_made(starter: TextToMotion):
     seen = SentenceGenerator(starter).unseen("claps")
     assert seen is not None
-    for steps, meets in ((6, True), (1, False)):  # in one step hands need to be brought together
+    for steps, meets in ((6, (2, 3)), (1, (0,))):  # in one step hands need to be brought together
         samples = starter.sample_features(["claps three times"] * 3, seconds=3.0, steps=steps)
-        assert [seen(made) == 0 for made in samples] == [meets] * 3
+        assert sum(seen(made) == 0 for made in samples) in meets
 
 
 def test_hands_that_do_something_else_are_not_brought_together(
