@@ -200,7 +200,7 @@ def test_seeds_of_numpy_and_paths_of_points_are_taken() -> None:
 def test_a_guess_is_said_with_the_motion_every_time() -> None:
     generator = motionsuite.load("starter", device="cpu")
     for _ in range(2):
-        [found] = generator.candidates("a person zorbles", 1, seconds=1.0)
+        [found] = generator.candidates("he wibbles", 1, seconds=1.0)
         assert found.warning and "far from anything" in found.warning
 
 

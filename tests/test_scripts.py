@@ -298,9 +298,11 @@ def test_all_gestures_stand_on_the_ground_and_move(gestures: ModuleType) -> None
             assert (first.num_frames, last.num_frames) == (round(30 * short), round(30 * long))
             joints = first.positions()
             lowest = float(joints[..., 1].min())
-            assert -0.03 < lowest < 0.06, (action, lowest)
+            highest = {"fly": 0.9, "swim": 0.5, "sleep": 0.1}.get(action, 0.06)  # a back is thick
+            assert -0.03 < lowest < highest, (action, lowest)
             way = np.linalg.norm(np.diff(joints, axis=0), axis=-1).sum(0).max()
-            assert way > 0.08, (action, way)  # metres of the joint that goes furthest
+            # metres of the joint that goes furthest
+            assert way > (0.03 if action == "sleep" else 0.08), (action, way)
 
 
 def test_a_nod_is_as_large_as_a_nod(gestures: ModuleType) -> None:

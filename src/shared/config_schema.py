@@ -365,8 +365,8 @@ class TrainTextConfig(TrainTowerConfig):
     unstyled_as_captured: bool = False  # plain words ask for what captured clips show in styles
     tower: Literal["same", "pairs"] = "same"  # "pairs": a new one of token pairs, the same places
     least_captions: int = Field(3, ge=1)  # of a token or pair that such a tower knows
-    manners: float = Field(0.1, gt=0, lt=1)  # share of an action's draws in manners that no clip
-    # shows of it: they ask for the action
+    manners: float = Field(0.1, gt=0, lt=1)  # of places: share of what is drawn without a style in
+    # styles that neither clips nor the tower show of it: they ask for the action
     keeping: float = Field(1.0, ge=0)  # weight of what a tower with places read rightly before
     pieces: float = Field(0.2, ge=0, lt=1)  # share of draws that are pieces of captions, read as
     # such a tower read them: by what it makes of pieces sentences are parted

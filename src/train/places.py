@@ -212,7 +212,8 @@ def own_places(
     """Which of a tower's places each combination of labels has [G], by where most of its captions
     [G lists] go.
 
-    Of bare actions no two have the same, those that are surest of theirs first. Where the captions
+    Of bare actions no two have the same, those that are surest of theirs first, unless all that
+    one's captions go to is another action's. Where the captions
     of others do not agree, it is one of those they go to that is like that of the bare action and
     no other combination has, the one with most of them first; or else that of the bare action. A
     count does not change a place.
@@ -225,20 +226,26 @@ def own_places(
     kinds = [group_of({key: each[key] for key in each if key != "count"}) for each in labels]
     kinds = [kind if kind in names else name for kind, name in zip(kinds, names, strict=True)]
     bare = [group_of({"action": each.get("action", "")}) for each in labels]
+    owners = [bare[row] for row in votes.argmax(0).tolist()]  # [P]: whose captions go there most
     homes: dict[str, int] = {}  # of the bare actions: no two of them have one place
-    bids = [(float(vote), name, place)
-            for name, home, own in zip(names, bare, votes, strict=True) if name == home
-            for place, vote in enumerate(own.tolist()) if vote]  # fmt: skip
+    bids = [
+        (vote, name, place)
+        for name, home, own in zip(names, bare, votes.tolist(), strict=True)
+        for place, vote in enumerate(own)
+        if vote and name == home == owners[place]
+    ]
     for _, name, place in sorted(bids, key=lambda each: -each[0]):
         if name not in homes and place not in homes.values():
             homes[name] = place
     at = [homes.get(name, place) for name, place in zip(names, best.tolist(), strict=True)]
-    owners = votes.argmax(0).tolist()  # [P], of rows: a place is of that action
+    taken = {place: name for name, place in homes.items()}
     found = {
         name: place
         for name, kind, home, place, share in zip(names, kinds, bare, at, shares, strict=True)
-        if name == kind and (name == home or (share >= AGREED and bare[owners[place]] == home))
-    }
+        if name == kind
+        and (name == home
+             or (share >= AGREED and owners[place] == home == taken.get(place, home)))
+    }  # fmt: skip
     split = {name: row for row, name in enumerate(names) if kinds[row] == name not in found}
     wanted = [
         (float(votes[row, place]), name, place)

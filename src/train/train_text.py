@@ -19,6 +19,7 @@ Letters: B batch, G label combinations, P places, D shared dimensions.
 
 import copy
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,7 @@ from torch.nn.functional import cross_entropy, kl_div, normalize
 
 from ..shared.config_schema import PAIRS, NetworkConfig, TrainTextConfig
 from ..shared.data.captions.book import drop_words, insert_babble, packaged_book, piece_of
+from ..shared.data.captions.schema import Labels
 from ..shared.data.prepared import group_of
 from ..shared.errors import UsageError, UserError
 from ..shared.io.files import sha256_file
@@ -135,6 +137,8 @@ class TextTask(Task):
         self.plain_of: dict[str, str] = {}  # of combinations in a manner that no clip shows
         if bundle is not None and (self.goes_on or config.tower == PAIRS):
             shown = [record.labels for record in records]
+            if self.goes_on:
+                shown += self._known_styles(bundle)
             self.labels, self.plain_of = with_manners(self.labels, shown)
         self.groups = sorted(self.labels)
         rows = {group: row for row, group in enumerate(self.groups)}
@@ -166,6 +170,11 @@ class TextTask(Task):
             if config.tower == PAIRS:
                 self._replace_tower(bundle)
         self.place_of = torch.arange(len(self.groups) + 1)  # [G + 1], the last one none of them
+        if self.plain_of and not self.goes_on:  # each place once
+            own, self.place_of[:-1] = torch.unique(self.read_as, return_inverse=True)
+            self.place_of[-1] = len(own)
+            self.places = self.places[own]
+            self.answers = None if self.answers is None else self.answers[own]
         self.teacher: TextTower | None = None
         self.whole: dict[str, list[str]] = {}  # captions to be read in pieces, by language
         if bundle is not None and self.goes_on:
@@ -238,13 +247,24 @@ class TextTask(Task):
 
     def _own_places(self, bundle: ClipBundle) -> Tensor:
         """Which of the tower's own places each combination has [G]."""
-        captions = self._captions(0, VOTES, whole=False)
-        shown = [row for row, group in enumerate(self.groups) if group not in self.plain_of]
-        said = [[text for texts in captions[row].values() for text in texts] for row in shown]
-        labels = [self.labels[self.groups[row]] for row in shown]
-        places = torch.zeros(len(self.groups), dtype=torch.long)
-        places[shown] = own_places(bundle.clip.text.eval(), bundle.tokenizer, said, labels)
-        return places[self.read_as]
+        shown = [group for group in self.groups if group not in self.plain_of]
+        found = self._places_of(bundle, shown)
+        return torch.tensor([found[self.plain_of.get(group, group)] for group in self.groups])
+
+    def _known_styles(self, bundle: ClipBundle) -> list[Labels]:
+        """Combinations in a style that the tower sends to other places than those without it."""
+        places = self._places_of(bundle, sorted(self.labels))
+        styled = (each for each in self.labels.values() if "style" in each)
+        plain = ((e, group_of({key: e[key] for key in e if key != "style"})) for e in styled)
+        return [each for each, group in plain if places[group_of(each)] != places.get(group)]
+
+    def _places_of(self, bundle: ClipBundle, groups: list[str]) -> dict[str, int]:
+        """Of each combination that clips or the tower show, which of its places it has."""
+        captions = self._captions(0, VOTES, whole=False, groups=groups)
+        said = [[text for texts in each.values() for text in texts] for each in captions]
+        labels = [self.labels[group] for group in groups]
+        found = own_places(bundle.clip.text.eval(), bundle.tokenizer, said, labels)
+        return dict(zip(groups, found.tolist(), strict=True))
 
     def _go_on(self, bundle: ClipBundle) -> None:
         """A tower with rows for the words of more sentences; the one that was there teaches it."""
@@ -273,9 +293,9 @@ class TextTask(Task):
         bundle.clip.text, bundle.clip.config = tower, network
 
     def _shares(self) -> np.ndarray:
-        """How often a combination is drawn [G]: an action of n combinations weighs n^0.75 (of more
-        than MANY no more where a tower goes on, which knows them), a share of it the manners that
-        no clip shows, and in it one of m hand-written
+        """How often a combination is drawn [G], of what one without a style weighs a share in the
+        manners that no clip shows: an action of n combinations weighs n^0.75 (of more than MANY no
+        more where a tower goes on, which knows them), and in it one of m hand-written
         sentences sqrt(1 + m), PLAIN times that without a style: the words of plain ones stand in
         all others, too, and would ask for the middle of the styles."""
         actions = [
@@ -296,15 +316,18 @@ class TextTask(Task):
         weights = np.where(manners < 0, said_so, plain)
         return np.asarray(weights / weights.sum())
 
-    def _captions(self, seed: int, num: int, *, whole: bool = True) -> list[dict[str, list[str]]]:
+    def _captions(
+        self, seed: int, num: int, *, whole: bool = True, groups: Sequence[str] | None = None
+    ) -> list[dict[str, list[str]]]:
         """For each combination and language, of all manners of one as many as of one; without
         `whole`, of the grammar alone."""
         book, kept = packaged_book(), self.config.languages
         manners = Counter(self.plain_of.values())
-        shares = [manners[self.plain_of.get(group, "")] or 1 for group in self.groups]
+        groups = self.groups if groups is None else groups
+        shares = [manners[self.plain_of.get(group, "")] or 1 for group in groups]
         found = (
             book.captions(self.labels[g], num=-(-num // share), seed=seed, whole_sentences=whole)
-            for g, share in zip(self.groups, shares, strict=True)
+            for g, share in zip(groups, shares, strict=True)
         )
         return [
             {k: _taught(v, k) if whole else v for k, v in captions.items() if k in kept}

@@ -13,7 +13,14 @@ from torch.nn.functional import normalize
 from src.shared.data.prepared import PreparedData, group_of
 from src.shared.model.generation.motion_generator import KIND as GENERATOR
 from src.train import train_text
-from src.train.places import apart, fuller_sides, nearest_styles, with_manners, with_unstyled
+from src.train.places import (
+    apart,
+    fuller_sides,
+    nearest_styles,
+    own_places,
+    with_manners,
+    with_unstyled,
+)
 from src.train.train_text import TextTask, open_tower
 
 
@@ -105,6 +112,40 @@ def test_an_action_in_a_manner_that_no_clip_shows_is_the_action() -> None:
         "action=jump|count=2|style=proud": {"action": "jump", "count": "2", "style": "proud"},
         "action=jump|count=2|style=sad": {"action": "jump", "count": "2", "style": "sad"},
     }
+
+
+def test_no_two_actions_have_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor does one get a place that another's captions go to more."""
+
+    class Tower:
+        def place_keys(self) -> torch.Tensor:
+            return torch.eye(6)
+
+    monkeypatch.setattr(
+        "src.train.places.pooled",
+        lambda tower, tokenizer, texts: torch.eye(6)[list(map(int, texts))],
+    )
+    asked = {
+        "squat": ([0] * 10, {"action": "squat"}),
+        "crouch": ([0] * 6 + [1] * 3 + [2], {"action": "crouch"}),  # what it has learned so far
+        "crouch|left": ([0] * 10, {"action": "crouch", "side": "left"}),
+        "jog": ([2] * 9 + [3], {"action": "jog"}),
+        "run": ([2] * 10, {"action": "run"}),
+        "run|left": ([3] * 10, {"action": "run", "side": "left"}),
+        "kick": ([4] * 10, {"action": "kick"}),
+        "kick|left": ([5] * 10, {"action": "kick", "side": "left"}),
+        "hop|left": ([5] * 7 + [4] * 3, {"action": "hop", "side": "left"}),
+        "hop": ([5] * 8 + [4] * 2, {"action": "hop"}),
+    }
+    texts = [[str(place) for place in places] for places, _ in asked.values()]
+    found = own_places(
+        cast(Any, Tower()), cast(Any, None), texts, [each for _, each in asked.values()]
+    )
+    places = dict(zip(asked, found.tolist(), strict=True))
+    assert places["squat"] == 0 and places["crouch"] == places["crouch|left"] == 1
+    assert (places["run"], places["run|left"]) == (2, 3)
+    assert places["jog"] == 2  # all that is its own is a run to the left: they share
+    assert (places["kick"], places["kick|left"], places["hop"]) == (4, 5, 5)
 
 
 def test_a_new_action_has_a_direction_of_its_own() -> None:

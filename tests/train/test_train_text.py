@@ -25,7 +25,9 @@ from src.shared.data.captions.book import packaged_book
 from src.shared.errors import UserError
 from src.shared.model.clip.pretrained import ClipBundle, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
+from src.train import train_text
 from src.train.engine import Trainer
+from src.train.places import with_manners
 from src.train.task import Part
 from src.train.train_text import PLAIN, TextTask
 
@@ -62,6 +64,19 @@ def paired(prepared: Path, tmp_path_factory: pytest.TempPathFactory) -> Hardened
     before = TextTask(config, tiny_network())
     first = before.validation(before.module)["right"]
     return Hardened(made, hard, first, harden(config).figures["right"])
+
+
+def test_a_place_is_learned_once_whatever_manners_ask_for_it(
+    prepared: Path, paired: Hardened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sad = {"action": "bow", "style": "sad"}
+    monkeypatch.setattr(train_text, "with_manners", lambda labels, _: with_manners(labels, [sad]))
+    task = TextTask(text_config(prepared, paired.made, tmp_path, *PAIRS, *SIZE), tiny_network())
+    shown = {group for group in task.groups if group not in task.plain_of}
+    assert task.plain_of and len(task.places) == len(shown) == task.place_of[-1]
+    assert set(task.place_of[:-1].tolist()) == set(range(len(shown)))
+    group = task.batch(Part(0, 0, 1)).group
+    assert ((group >= 0) & (group <= len(shown))).all()
 
 
 def harden(config: TrainTextConfig) -> TextTask:
@@ -142,7 +157,9 @@ def test_a_tower_with_places_goes_on_with_more_sentences(
     for manner, plain in task.plain_of.items():
         rows = [task.groups.index(group) for group in (manner, plain)]
         assert task.place_of[rows[0]] == task.place_of[rows[1]]
-        assert task.shares[rows[0]] < task.shares[rows[1]]
+        said = [row for row, at in enumerate(task.read_as.tolist()) if at == rows[1] != row]
+        both = task.shares[[rows[1], *said]].sum()
+        assert task.shares[said].sum() == pytest.approx(config.manners * both)
     fresh = task.module.get_submodule("encoder").get_buffer("keys")
     assert len(fresh) > most  # those of hand-written sentences, too
     assert {each["action"] for each in task.labels.values()} <= set(old.card.tags)

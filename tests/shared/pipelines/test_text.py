@@ -83,7 +83,7 @@ def test_an_angle_and_a_length_are_kept(starter: TextToMotion):
 
 @pytest.mark.parametrize(
     ("sentence", "frames"),
-    [("he walks ten steps", (130, 165)), ("takes two steps to the left", (35, 60))],
+    [("she walks ten steps", (130, 165)), ("takes two steps to the left", (35, 60))],
 )
 def test_steps_take_the_time_of_the_pace(
     starter: TextToMotion, sentence: str, frames: tuple[int, int]

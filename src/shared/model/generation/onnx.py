@@ -19,7 +19,7 @@ import torch
 from torch import Tensor, nn
 
 from ...errors import UserError
-from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
+from ..checkpoint import CARD_FILE, WEIGHTS_FILE, read_tensors, resolve_model
 from ..clip.core import SPECIAL, TextTower, TokenPairEncoder
 from ..clip.features import TextFeatures
 from ..clip.out_of_domain import META_FILE as SCOPE_FILE
@@ -32,7 +32,7 @@ from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_
 from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser, vectors
-from .motion_generator import TextToMotion, as_captured
+from .motion_generator import PROJECTED, TextToMotion, as_captured
 
 FILES = (
     CARD_FILE,
@@ -202,6 +202,13 @@ def export_text(model: str | Path, folder: str | Path) -> TextOnnxCard:
     generator = TextToMotion.from_pretrained(source, device="cpu")
     denoiser, config = generator.denoiser, generator.network
     _check_changed(denoiser, source)
+    if generator.card.network.generation.adapter_ranks and not any(
+        PROJECTED in name for name in read_tensors(source, generator.card)
+    ):
+        raise UserError(
+            f"{source} is from before adapters had a share of the output projection; write it anew"
+            " (TextToMotion.from_pretrained(old).save_pretrained(new)) and export that"
+        )
     rows, channels = generator.mean.shape
     frames, dim, tokens = EXAMPLE_FRAMES, config.embed_dim, denoiser.uses_tokens
     batch, whole = {0: "batch"}, {0: "batch", 1: "frames"}

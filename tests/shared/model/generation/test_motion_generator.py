@@ -14,6 +14,7 @@ from src.shared.io.files import sha256_file, write_json
 from src.shared.model.checkpoint import CARD_FILE, WEIGHTS_FILE
 from src.shared.model.clip.core import TextTower
 from src.shared.model.generation.motion_generator import PROJECTED, TextToMotion
+from src.shared.model.generation.onnx import export_text
 
 PROMPTS = ["a person walks forward", "somebody jumps twice", "人が前に歩く"]
 
@@ -199,6 +200,8 @@ def test_adapters_of_before_leave_the_output_projection_as_it_is(make_generator,
     rewrite(tmp_path, lambda tensors: [tensors.pop(name) for name in own])
     found = TextToMotion.from_pretrained(tmp_path, device="cpu").denoiser.state_dict()
     assert others and all(torch.equal(found[name], weight) for name, weight in wanted.items())
+    with pytest.raises(UserError, match="write it anew"):
+        export_text(tmp_path, tmp_path / "onnx")
 
     generator.save_pretrained(tmp_path)
     rewrite(tmp_path, lambda tensors: tensors.pop(first))
