@@ -907,13 +907,13 @@ def swim(scene: Scene) -> Body:
     go = ramp(t, 0.3, 0.5)
     gone = np.cumsum(go) / FPS
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
-        late = late * go
-        turn = 2 * np.pi * (gone / 1.4 + late)
+        apart = late * go
+        turn = 2 * np.pi * (gone / 1.4 + apart)
         body.arms[:, side, FLEX] = np.radians(88) + np.radians(84) * np.cos(turn)
         body.arms[:, side, ABDUCT] = np.radians(14) + np.radians(34) * np.clip(-np.sin(turn), 0, 1)
         body.arms[:, side, TWIST] = 0.0
         body.arms[:, side, ELBOW] = np.radians(16) + np.radians(40) * np.clip(-np.sin(turn), 0, 1)
-        beat = np.sin(2 * np.pi * (gone / 0.47 + late)) * go
+        beat = np.sin(2 * np.pi * (gone / 0.47 + apart)) * go
         body.ball[:, side, 2] = body.position[:, 2] - 0.93
         body.ball[:, side, 1] = 0.52 + 0.13 * beat
         body.foot_pitch[:, side] = np.radians(-110)
