@@ -105,7 +105,7 @@ def test_what_nobody_taught_is_told_as_by_the_command(
 def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
     browser: Browser, generator: MotionGenerator
 ) -> None:
-    prompt = "aplaude cuatro veces muy contento"
+    prompt = "punches three times like a kangaroo"
     made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 1 }}], seed: 0 }}")
     [line] = generator.sentences.scope_warnings([prompt])
     assert line is not None
