@@ -907,7 +907,7 @@ def swim(scene: Scene) -> Body:
     go = ramp(t, 0.3, 0.5)
     gone = np.cumsum(go) / FPS
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
-        apart = late * go
+        apart = late * ramp(t, 0.3, 1.4)  # no faster than the strokes
         turn = 2 * np.pi * (gone / 1.4 + apart)
         body.arms[:, side, FLEX] = np.radians(88) + np.radians(84) * np.cos(turn)
         body.arms[:, side, ABDUCT] = np.radians(14) + np.radians(34) * np.clip(-np.sin(turn), 0, 1)

@@ -4,7 +4,8 @@ A denoiser that learned plain captions mostly from procedural clips gives proced
 them, and captured motion for one word of style. Among the styles that captured clips show of a
 combination, the one nearest to its unstyled captured clips (or, without such, to the middle of all
 styles) is nearest to no style at all. An action that it never learned would share the places of
-those whose captions sound alike: it gets a direction of its own.
+those whose captions sound alike: it gets a direction of its own. A tower that
+starts from nothing learns its places (`LabelledTower`).
 """
 
 import copy

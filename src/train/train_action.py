@@ -99,6 +99,12 @@ class ActionTask(Task):
         self.captured = captured if config.captured_share == 1 else set[str]()
         self.clips = Counter(r.group for r in records if self._admits(r))
         self.train = training_set(config, self.data, self._learns)
+        shown = {record.tag for record in self.train.records}
+        if lacking := sorted(set(self.actions) - shown - known):
+            raise UserError(
+                f"min-clips={config.min_clips} leaves no clip of {', '.join(lacking)}, which is"
+                " new; lower it, or prepare more clips of a kind"
+            )
         self.tags = (
             self.before.card.tags if config.actions else (*self.before.card.tags, *self.actions)
         )

@@ -1,5 +1,6 @@
 """A new action from a few clips: its sentences find a place of their own, the others stay."""
 
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from tiny_stage import (
 
 from src.shared.config_loader import load_train
 from src.shared.config_schema import TrainActionConfig, TrainTextConfig
-from src.shared.data.prepare import prepare
+from src.shared.data.prepare import open_data, prepare
 from src.shared.data.sources import MotionFolder
 from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError, UserError
@@ -223,6 +224,21 @@ def test_a_style_is_learned_better_where_nothing_else_comes_out(
         config = action_config(tmp_path / "both", model, tmp_path / "y", *given)
         with pytest.raises(error, match=told):
             ActionTask(config, network_of(str(model)))
+
+
+def test_a_new_action_that_keeps_no_clip_is_told(model: Path, tmp_path: Path) -> None:
+    prepared_clips(tmp_path, "flop", NEW)
+    rows = [f"take{n},{'slump' if n < 3 else 'flop'},a person moves" for n in range(7)]
+    (tmp_path / "captions.csv").write_text("\n".join(["clip,action,caption", *rows]))
+    source = MotionFolder.open(tmp_path / "clips", captions=[tmp_path / "captions.csv"])
+    prepare([source], tmp_path / "both", workers=1)
+    clips = Counter(r.tag for r in open_data(str(tmp_path / "both"), tmp_path).records("train"))
+    assert clips["slump"] < clips["flop"]
+    config = action_config(
+        tmp_path / "both", model, tmp_path / "x", f"min-clips={clips['flop']}", "tower-steps=1"
+    )
+    with pytest.raises(UserError, match="no clip of slump, which is new"):
+        ActionTask(config, network_of(str(model)))
 
 
 def test_a_style_moves_aside_from_where_plain_clips_are() -> None:
