@@ -408,7 +408,7 @@ def plot(
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:
-        from ..shared.evaluation.plots import plot_trajectory
+        from ..shared.evaluation.suites.sanity import plot_trajectory
         from ..shared.formats.registry import read_trajectory
 
         plot_trajectory(read_trajectory(file), picture, title=str(file))

@@ -319,8 +319,8 @@ def evaluate_sanity(
     options.check_pairs(data)
     options.check_folder("--output-dir", output_dir)
 
-    from ..shared.evaluation.plots import plot_trajectory
     from ..shared.evaluation.suites import sanity
+    from ..shared.evaluation.suites.sanity import plot_trajectory
 
     set_threads(threads)
     result = sanity.evaluate_sanity(

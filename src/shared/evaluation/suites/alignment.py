@@ -13,10 +13,9 @@ import numpy as np
 
 from ...metrics import rhythm
 from ...motion.trajectory import FPS, MotionTrajectory
-from ..plots import new_figure, save_figure
 from ..samples import Dance
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
-from ..tables import Grid, GridRow
+from ..tables import Grid, GridRow, new_figure, save_figure
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")

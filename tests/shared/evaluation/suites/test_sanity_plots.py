@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from src.shared.evaluation.plots import plot_trajectory
+from src.shared.evaluation.suites.sanity import plot_trajectory
 from tests.shared.motion.trajectories import smooth_trajectory
 
 pytest.importorskip("matplotlib")
