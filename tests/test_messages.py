@@ -134,7 +134,7 @@ CASES: list[tuple[str, int, str]] = [
     ("generate --prompt walk --seconds -1", 2, "-1"),
     ("generate --prompt caf\udce9", 2, "caf.*is not UTF-8 text"),
     (f"generate --audio {'a' * 300}.wav", 2, "its name is too long"),
-    ("generate --prompt walk --format fbx", 2, "fbx"),
+    ("generate --prompt walk --format dae", 2, "dae"),
     ("generate --prompt walk --model no-such", 2, "no-such"),
     ("generate --prompt walk --model model", 1, r"config\.json"),
     ("generate --audio none.wav", 2, r"none\.wav"),

@@ -42,8 +42,8 @@ def convert(
     format: Annotated[
         str | None,
         typer.Option(
-            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, vrm, vrma, npz,"
-            " amass, csv, html, png, gif, mp4."
+            help="Into a folder, with commas between: bvh, glb, usd, usda, usdc, fbx, vrm, vrma,"
+            " npz, amass, csv, html, png, gif, mp4."
         ),
     ] = None,
     fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
@@ -52,7 +52,8 @@ def convert(
         str, typer.Option(help="Joint names in bvh, glb, usd: canonical, mixamo, unity, unreal.")
     ] = "canonical",
     skeleton: Annotated[
-        Path | None, typer.Option(help="Move this character instead of ours: a .bvh, .glb or .vrm.")
+        Path | None,
+        typer.Option(help="Move this character instead of ours: a .bvh, .glb, .vrm or .fbx."),
     ] = None,
     mapping: Annotated[
         Path | None, typer.Option(help="YAML: which joints of IN and --skeleton are which of ours.")
@@ -221,9 +222,9 @@ def check_rigged(formats: list[str], names: str, skeleton: Path | None) -> None:
             )
         if other := sorted(set(formats) - rigged):
             raise UsageError(f"--skeleton does not go with {other[0]}; choose from {known}")
-        if skeleton.suffix.lower() not in (".bvh", ".glb", ".vrm"):
+        if skeleton.suffix.lower() not in (".bvh", ".glb", ".vrm", ".fbx"):
             raise UsageError(
-                f"--skeleton {skeleton} is no .bvh, .glb or .vrm file"
+                f"--skeleton {skeleton} is no .bvh, .glb, .vrm or .fbx file"
                 "; export the character as one of them"
             )
     elif names != "canonical" and not rigged:
@@ -324,7 +325,8 @@ MAX_INDENT = 24  # levels; deeper joints are shown there
 
 def inspect(
     file: Annotated[
-        Path, typer.Argument(help="A motion or an avatar: bvh, amc, glb, vrma, vrm, npz or npy.")
+        Path,
+        typer.Argument(help="A motion or an avatar: bvh, amc, glb, vrma, vrm, npz, npy, fbx."),
     ],
     mapping: options.Mapping = None,
     unit: options.Unit = None,

@@ -1,7 +1,7 @@
 """What `generate` writes: names, files and pages, and a row of facts for each motion."""
 
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,16 +28,19 @@ SHOWN = 8  # candidates in the printed table
 # ---------------------------------------------------------------- formats and names
 
 
-def checked_formats(text: str, known: Iterable[str]) -> list[str]:
+def checked_formats(text: str, known: Mapping[str, Any]) -> list[str]:
     """The wanted formats, each once, of a table of `formats/registry.py`, before anything slow."""
+    from ..shared.formats.registry import find_writer
+
     names = list(dict.fromkeys(parts(text.lower())))
     unknown = [name for name in names if name not in known]
     if unknown or not names:
         raise UsageError(
             f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
             f" written here; choose from {', '.join(known)}"
-            + ("; Blender makes fbx of bvh, see docs/blender.md" if "fbx" in unknown else "")
         )
+    for name in names:
+        find_writer(known, name, "--format")  # what it needs is there
     return names
 
 

@@ -157,7 +157,7 @@ class Request:
     format: Annotated[
         str | None,
         typer.Option(
-            help="With commas between: bvh, glb, npz, html (unless given), usd, usda, usdc,"
+            help="With commas between: bvh, glb, npz, html (unless given), usd, usda, usdc, fbx,"
             " vrm, vrma, amass, csv, png, gif, mp4 for a body; npz, csv, glb, html, png for a path."
         ),
     ] = None

@@ -14,6 +14,7 @@ DEVICE = "MOTIONGEN_DEVICE"  # auto, cuda, mps or cpu
 OUTPUT_DIR = "MOTIONGEN_OUTPUT_DIR"  # folder for reports and motions; training runs lie in it
 DATA_DIR = "MOTIONGEN_DATA_DIR"  # folder or bucket of pairs
 DIFFUSION_CHECKPOINT = "MOTIONGEN_DIFFUSION_CHECKPOINT"  # a model folder
+BLENDER = "MOTIONGEN_BLENDER"  # the program, or a Python that has its module bpy
 DECODER_CHECKPOINT = "MOTIONGEN_DECODER_CHECKPOINT"  # a model folder, for its decoder alone
 
 TEXT_MODEL, AUDIO_MODEL = "starter", "starter-audio"  # where none is named

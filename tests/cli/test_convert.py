@@ -198,7 +198,7 @@ def test_wrong_usage_is_said_before_anything_is_read(walk: Path, tmp_path: Path)
     out = tmp_path / "a.glb"
     wrong = {
         "OUT is missing": (walk,),
-        "'fbx' is not a format": (walk, tmp_path / "a.fbx"),
+        "'dae' is not a format": (walk, tmp_path / "a.dae"),
         "--format says what to write": (walk, walk, tmp_path / "out"),
         "'obj' is not a format": (walk, tmp_path / "out", "--format", "glb,obj"),
         "names nothing": (walk, tmp_path / "out", "--format", ","),
@@ -208,7 +208,7 @@ def test_wrong_usage_is_said_before_anything_is_read(walk: Path, tmp_path: Path)
         "'daz' names no joints": (walk, out, "--names", "daz"),
         "--names unity goes with bvh": (walk, tmp_path / "a.csv", "--names", "unity"),
         "--skeleton does not go with csv": (walk, tmp_path / "a.csv", "--skeleton", "x.bvh"),
-        "--skeleton x.fbx is no .bvh, .glb or .vrm": (walk, out, "--skeleton", "x.fbx"),
+        "--skeleton x.dae is no .bvh, .glb, .vrm or .fbx": (walk, out, "--skeleton", "x.dae"),
         "--names does not go with": (walk, out, "--names", "unity", "--skeleton", "x.bvh"),
         "written over itself": (walk, walk),
         "would both become": (walk, walk, tmp_path / "out", "--format", "bvh"),

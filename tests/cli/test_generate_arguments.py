@@ -13,6 +13,7 @@ from src.cli import generate_files
 from src.cli.generate_request import read_prompts
 from src.cli.tools import app
 from src.shared.errors import UsageError
+from src.shared.formats.registry import EXPORTERS
 
 runner = CliRunner()
 WAVE = ["generate", "--prompt", "a person waves"]
@@ -23,7 +24,7 @@ WAVE = ["generate", "--prompt", "a person waves"]
     [
         (["generate"], "--prompt"),
         (["generate", "--prompt", "  "], "--prompt"),
-        ([*WAVE, "--format", "bvh,fbx"], "'fbx'"),
+        ([*WAVE, "--format", "bvh,dae"], "'dae'"),
         ([*WAVE, "--format", ","], "--format"),
         ([*WAVE, "--prompts", "prompts.csv"], "--prompt does not go with --prompts"),
         (["generate", "--prompts", "a.txt", "--loop"], "--prompts does not go with --loop"),
@@ -94,11 +95,11 @@ def test_prompts_of_a_file(tmp_path: Path) -> None:
 
 
 def test_unknown_format_is_told_before_the_model_loads() -> None:
-    assert runner.invoke(app, [*WAVE, "--format", "fbx", "--model", "none"]).exit_code == 2
+    assert runner.invoke(app, [*WAVE, "--format", "dae", "--model", "none"]).exit_code == 2
 
 
 def test_formats_are_taken_once_each_in_the_order_given() -> None:
-    assert generate_files.checked_formats(" GLB,bvh,glb ", generate_files.FORMATS) == ["glb", "bvh"]
+    assert generate_files.checked_formats(" GLB,bvh,glb ", EXPORTERS) == ["glb", "bvh"]
 
 
 def test_one_tag_serves_all_prompts() -> None:

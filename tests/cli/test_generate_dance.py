@@ -139,7 +139,7 @@ def test_a_song_without_beat(
     ("arguments", "named"),
     [
         (("--format", "bvh"), "--body"),
-        ((*PROMPT, "--format", "fbx"), "'fbx'"),
+        ((*PROMPT, "--format", "dae"), "'dae'"),
         (("--prompt", " "), "--prompt"),
         (("--body", "--tag", "walk"), "--tag"),
         ((*PROMPT, "--body"), "--body lets the music say"),

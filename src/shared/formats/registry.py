@@ -35,6 +35,7 @@ EXPORTERS: dict[str, Callable[..., Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh"),
     "glb": _lazy("writers.glb", "write_glb"),
     **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd")),
+    "fbx": _lazy("blender", "write_fbx"),
     "vrm": _lazy("writers.glb", "write_vrm"),
     "vrma": _lazy("writers.glb", "write_vrma"),
     "npz": _lazy("arrays", "write_npz"),
@@ -49,8 +50,11 @@ EXPORTERS: dict[str, Callable[..., Path]] = {
 CLIP_EXPORTERS: dict[str, Callable[[RigClip, Path], Path]] = {
     "bvh": _lazy("writers.bvh", "write_bvh_clip"),
     "glb": _lazy("writers.glb", "write_glb_clip"),
+    "fbx": _lazy("blender", "write_fbx_clip"),
     **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd_clip")),
 }
+# What a format needs beside this program; raises UserError where it is missing.
+NEEDS: dict[str, Callable[[], Any]] = {"fbx": _lazy("blender", "find_blender")}
 _trajectory_npz = _lazy("arrays", "write_trajectory_npz")
 _trajectory_csv = _lazy("csv_files", "write_trajectory_csv")
 _trajectory_glb = _lazy("writers.glb", "write_trajectory_glb")
@@ -99,12 +103,13 @@ def find_writer(writers: Mapping[str, Writer], name: str, given: str) -> Writer:
 
     Raises:
         UsageError: no format has this name.
+        UserError: it needs a program that is not here.
     """
-    try:
-        return writers[name.lower()]
-    except KeyError:
+    if (writer := writers.get(name.lower())) is None:
         known = ", ".join(writers)
-        raise UsageError(f"{given}: {name!r} is not a format; choose from {known}") from None
+        raise UsageError(f"{given}: {name!r} is not a format; choose from {known}")
+    NEEDS.get(name.lower(), str)()
+    return writer
 
 
 # ---------------------------------------------------------------- motions

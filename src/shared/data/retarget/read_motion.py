@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import UsageError, UserError, in_range
 from ...formats.amass import is_amass, read_amass
 from ...formats.arrays import read_npz
+from ...formats.blender import as_glb
 from ...formats.csv_files import read_motion_csv
 from ...formats.limits import array_names, check_size
 from ...formats.readers.acclaim import read_amc
@@ -30,7 +31,7 @@ from .autodetection import (
 from .mapping import GUESSED, SkeletonMapping, load_mappings, mapping_of
 from .to_canonical import leg_length, retarget
 
-FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".vrma", ".npy")
+FOLDER_ENDINGS = (".bvh", ".amc", ".npz", ".glb", ".vrma", ".npy", ".fbx")
 ENDINGS = (*FOLDER_ENDINGS, ".csv")  # in a folder it may hold captions
 
 
@@ -79,6 +80,9 @@ def open_recording(
         still = ("an avatar, which holds no motion: this is how it stands",)
         told = still if ending == ".vrm" and clip.num_frames == 1 else ()
         return Recording(name, clip=clip, up="Y", metres=1.0, text=clip.text, warnings=told)
+    if ending == ".fbx":
+        with as_glb(path) as glb:
+            return replace(open_recording(glb), format="FBX, by Blender")
     if ending == ".csv":
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":

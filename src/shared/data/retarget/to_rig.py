@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import UsageError, UserError
+from ...formats.blender import as_glb, through_glb
 from ...formats.readers.bvh import BvhClip, read_bvh
 from ...formats.readers.glb import GlbSkeleton, read_glb_skeleton
 from ...formats.registry import check_motion, write_clip
@@ -164,8 +165,8 @@ class Target:
     def write(self, motion: Motion, path: Path) -> Path:
         """Write the motion on this skeleton in the format that `path` ends with.
 
-        As GLB a character is written with its own mesh, as VRM an avatar with all that its file
-        holds; all else with the skeleton alone.
+        As GLB and FBX a character is written with its own mesh, as VRM an avatar with all that its
+        file holds; all else with the skeleton alone.
 
         Raises:
             UsageError: no format that holds any skeleton ends so, it is the skeleton's own file, or
@@ -178,8 +179,11 @@ class Target:
         ending = path.suffix.lower()
         if ending == ".vrm":
             self.check_avatar()
-        if self.character is not None and ending in (".glb", ".vrm"):
-            return write_glb_character(self.character, self.clip(motion), path)
+        if (character := self.character) is not None and ending in (".glb", ".vrm", ".fbx"):
+            clip = self.clip(motion)
+            if ending != ".fbx":
+                return write_glb_character(character, clip, path)
+            return through_glb(lambda to: write_glb_character(character, clip, to), path, clip.fps)
         clip = self.clip(motion)
         if ending != ".bvh":  # all others are +Y up
             clip = turned(clip, upright(self.up))
@@ -189,7 +193,7 @@ class Target:
 
 
 def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
-    """A skeleton to move, from a BVH, GLB or VRM file.
+    """A skeleton to move, from a BVH, GLB, VRM or FBX file.
 
     Its own motion only tells which way is up and, where the rest pose does not, its axes.
 
@@ -200,6 +204,9 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
         UserError: missing, damaged, with several roots, or with joints that no profile maps.
     """
     path, profiles = Path(path), load_mappings(mapping)
+    if path.suffix.lower() == ".fbx":
+        with as_glb(path) as glb:
+            return replace(read_target(glb, mapping=mapping), path=path)
     if path.suffix.lower() in (".glb", ".vrm"):
         character = read_glb_skeleton(path)
         rig = character.rig
