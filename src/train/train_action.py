@@ -17,7 +17,7 @@ Letters: B batch, T frames, R rows of a frame, P places, D shared dimensions.
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -303,7 +303,8 @@ class ActionTask(Task):
         return limit
 
     def _denoiser(self) -> MotionDenoiser:
-        """A copy of the old one in which nothing but the new adapters can learn."""
+        """A copy of the old one in which nothing but the new adapters can learn. Where all that is
+        to be learned opens one adapter already, the new one begins as that."""
         denoiser, old = MotionDenoiser(self.network, len(self.tags)), self.before.denoiser
         before, every = old.state_dict(), self.tower.get_buffer("places")
         ranks, tags = self.network.generation.adapter_ranks, before[TAG_WEIGHT]
@@ -313,11 +314,15 @@ class ActionTask(Task):
         known = len(self.before.text.get_buffer("places"))
         adapter_of[:known] = before.get("adapter_of", adapter_of[:known])
         near = every.float() @ torch.unique(self.places, dim=0).T  # [P, places learned]
-        adapter_of[(near > near.amax(0) - SAME).any(1)] = len(ranks)
+        learned = (near > near.amax(0) - SAME).any(1)
+        opened = sorted({*adapter_of[learned].tolist()})
+        adapter_of[learned] = len(ranks)
+        begun = begun_as(opened[0] - 1, len(ranks) - 1, before, self.config.rank)
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),
                 **before,
+                **(begun if len(opened) == 1 and opened[0] else {}),
                 TAG_WEIGHT: torch.cat([tags[:-1], added, tags[-1:]]),
                 "places": every,
                 "adapter_of": adapter_of,
@@ -341,12 +346,21 @@ class ActionTask(Task):
             noise=torch.randn(clean.shape, generator=draws),
             mask=clips.mask,
             known=draw_known(clips.mask, clean.shape[2], self.shares, rng),
-            timesteps=spread_timesteps(size, self.diffusion.config.timesteps, draws),
+            timesteps=self._timesteps(size, draws),
             tag=torch.full((size,), len(self.tags)),
             provenance=clips.provenance,
             drop=torch.rand(size, generator=draws) < config.condition_dropout,
             place=self.places[[self.row_of[record.id] for record in clips.records]],
         )
+
+    def _timesteps(self, size: int, draws: torch.Generator) -> Tensor:
+        """[B], of which `first_share` is the last: hardly any is by chance, and with few steps much
+        is decided there."""
+        last = self.diffusion.config.timesteps - 1
+        drawn = spread_timesteps(size, last + 1, draws)
+        if not self.config.first_share:
+            return drawn
+        return drawn.where(torch.rand(size, generator=draws) >= self.config.first_share, last)
 
     # ------------------------------------------------------------ learning
 
@@ -444,6 +458,25 @@ class ActionTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._generator(module).save_pretrained(folder)
+
+
+def begun_as(old: int, new: int, state: Mapping[str, Tensor], rank: int) -> dict[str, Tensor]:
+    """Weights of adapter `new` of a denoiser, which does as adapter `old` of `state` does, as well
+    as its rank allows: by singular values, the spare ones zero."""
+    begun = dict[str, Tensor]()
+    for name, down in state.items():
+        if f".adapters.{old}.0." not in name:
+            continue
+        up = state[name.replace(f".adapters.{old}.0.", f".adapters.{old}.1.")]
+        left, sizes, right = torch.linalg.svd(up @ down, full_matrices=False)
+        own = name.replace(f".adapters.{old}.", f".adapters.{new}.")
+        roots = sizes[: min(rank, len(down))].sqrt()
+        kept = len(roots)
+        first = nn.Linear(down.shape[1], rank, bias=False).weight.detach()
+        second = torch.zeros(len(up), rank)
+        first[:kept], second[:, :kept] = roots[:, None] * right[:kept], left[:, :kept] * roots
+        begun |= {own: first, own.replace(".0.weight", ".1.weight"): second}
+    return begun
 
 
 def _joints(features: Tensor) -> Tensor:

@@ -25,6 +25,7 @@ from src.shared.formats.writers.bvh import write_bvh
 from src.shared.model.clip.pretrained import tower_hash
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
+from src.train.task import Part
 from src.train.text_stages import as_features
 from src.train.train_action import ActionTask, aside, network_of, unshared
 from src.train.train_text import TextTask
@@ -196,6 +197,39 @@ def test_a_known_action_is_learned_better_where_it_is(model: Path, tmp_path: Pat
         ActionTask(
             action_config(data, model, tmp_path / "x", "actions=[sing]"), network_of(str(model))
         )
+
+
+@pytest.mark.parametrize("rank", [20, 2])
+def test_an_adapter_goes_on_from_the_one_that_was_there(
+    model: Path, flops: Path, tmp_path: Path, rank: int
+) -> None:
+    """It begins as that one, whatever its rank can hold of it."""
+    config = action_config(flops, model, tmp_path / "flop", "steps=4", "rank=4")
+    Trainer(config, lambda c: ActionTask(c, network_of(str(model))), command="again").train()
+    more = ("actions=[flop]", f"rank={rank}")
+    config = action_config(flops, config.output, tmp_path / "better", *more)
+    task = ActionTask(config, network_of(str(config.init)))
+    state = task._denoiser().state_dict()
+    downs = [name for name in state if ".adapters.0.0." in name]
+    assert downs
+    for name in downs:
+        old, new = (
+            state[each.replace(".0.weight", ".1.weight")] @ state[each]
+            for each in (name, name.replace(".adapters.0.", ".adapters.1."))
+        )
+        if rank > 4:
+            torch.testing.assert_close(new, old, rtol=1e-4, atol=1e-7)
+        lost = float((new - old).square().sum() / old.square().sum().clamp(min=1e-12))
+        assert lost < 0.75
+
+
+def test_a_share_of_a_batch_is_noise_alone(model: Path, flops: Path, tmp_path: Path) -> None:
+    given = ("batch-size=64", "first-share=0.5")
+    task = ActionTask(action_config(flops, model, tmp_path / "x", *given), network_of(str(model)))
+    timesteps = task.batch(Part(0, 0, 1)).timesteps
+    last = int(timesteps.max())
+    assert last == task.diffusion.config.timesteps - 1
+    assert 16 < int((timesteps == last).sum()) < 48
 
 
 def test_a_style_is_learned_better_where_nothing_else_comes_out(
