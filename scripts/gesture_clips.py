@@ -783,7 +783,7 @@ def down(body: Body, sit: Array, flat: Array) -> None:
     body.position[:, 2] -= 0.46 * sit
     body.pitch[:] += np.radians(32 * mid - 12 * sit * (1 - flat) - 84 * flat)
     body.spine[:, 0] += np.radians(14 * mid + 22 * sit * (1 - flat) + 26 * 4 * flat * (1 - flat))
-    body.ball[..., 2] += (0.34 * flat)[:, None]
+    body.ball[..., 2] += (0.43 * flat)[:, None]
     body.ball[..., 1] += (0.17 * flat)[:, None]
     body.foot_pitch[:] += np.radians(66 * flat)[:, None]
     body.foot_yaw[:] *= 1 + 2 * flat[:, None]
@@ -906,6 +906,7 @@ def swim(scene: Scene) -> Body:
     face_down(body, 0.55, 84)
     go = ramp(t, 0.3, 0.5)
     gone = np.cumsum(go) / FPS
+    body.position[:, 2] += 0.5 * gone
     for side, late in ((LEFT, 0.0), (RIGHT, 0.5)):
         apart = late * ramp(t, 0.3, 1.4)  # no faster than the strokes
         turn = 2 * np.pi * (gone / 1.4 + apart)
@@ -923,9 +924,10 @@ def swim(scene: Scene) -> Body:
 
 
 def fly(scene: Scene) -> Body:
-    """Face down in the air, both arms stretched ahead, banking a little."""
+    """Ahead through the air, face down, both arms stretched out, banking a little."""
     body, t = scene.standing(width=0.12), scene.t
     face_down(body, 1.05, 80)
+    body.position[:, 2] += 1.5 * t
     bank = np.sin(2 * np.pi * t / 2.6)
     body.position[:, 1] += 0.04 * np.sin(2 * np.pi * t / 1.9)
     body.roll[:] += np.radians(12) * bank
@@ -1044,13 +1046,13 @@ def confused(scene: Scene) -> Body:
 def dizzy(scene: Scene) -> Body:
     """A hand at the brow, the body goes round over its feet, the knees soft."""
     body, up = scene.standing(width=0.26), held(scene, 0.6)
-    phase, _ = beats(scene, 1.7, 0.3)
+    phase, _ = beats(scene, 1.4, 0.3)
     round_, over = np.sin(2 * np.pi * phase) * up, np.cos(2 * np.pi * phase) * up
     hand(body, RIGHT, up, (-0.12, 0.22, 0.16), elbow=(0.7, -0.6, 0.5))
     pose_arm(body, LEFT, up, flex=20, abduct=38, elbow=26)
-    lean(body, 9 * up + 9 * over, 0, 13 * round_)
-    nod_by(body, 12 * up + 8 * over, 0, 12 * round_)
-    body.position[:, 0] += 0.07 * round_
+    lean(body, 10 * up + 12 * over, 0, 20 * round_)
+    nod_by(body, 12 * up + 10 * over, 0, 16 * round_)
+    body.position[:, 0] += 0.10 * round_
     body.position[:, 2] += 0.04 * over
     sink(body, 0.06 * up)
     return body

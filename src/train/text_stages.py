@@ -246,6 +246,7 @@ MOST_NAMED = 300  # captions that stand for actions
 SCOPE_CAPTIONS = 20_000  # at most so many captions teach OutOfDomainDetector
 CALIBRATING = 3_000  # at most, each also with words that nobody knows, and without its key words
 HEARD = 3  # sentences that have to have a word, for it to be one that is known
+SAID = 60  # captions of the grammar, of each action and language, whose words are known
 IDEOGRAPHS = (0x4E00, 0x9FFF)
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
@@ -303,7 +304,15 @@ def refit_scope(
     told = {t for code in languages if code in book.languages
             for t in book.written_of(scope.actions, code)}  # fmt: skip
     heard = Counter(word for text in told for word in {*words_of(text)})
-    scope = replace(scope, words=scope.words | {word for word in heard if heard[word] >= HEARD})
+    grammar = (
+        book.captions({"action": action}, num=SAID, seed=0, whole_sentences=False)
+        for action in scope.actions
+        if action
+    )
+    said = (texts for each in grammar for code, texts in each.items() if code in languages)
+    words = {word for texts in said for text in texts for word in words_of(text)}
+    words |= {word for word in heard if heard[word] >= HEARD}
+    scope = replace(scope, words=scope.words | words)
     return fit_warnings(scope, languages, tower, tokenizer)
 
 

@@ -303,8 +303,8 @@ class ActionTask(Task):
         return limit
 
     def _denoiser(self) -> MotionDenoiser:
-        """A copy of the old one in which nothing but the new adapters can learn. Where all that is
-        to be learned opens one adapter already, the new one begins as that."""
+        """A copy of the old one in which nothing but the new adapters can learn. They begin as
+        those that most of what is to be learned opens already, if it does."""
         denoiser, old = MotionDenoiser(self.network, len(self.tags)), self.before.denoiser
         before, every = old.state_dict(), self.tower.get_buffer("places")
         ranks, tags = self.network.generation.adapter_ranks, before[TAG_WEIGHT]
@@ -315,14 +315,14 @@ class ActionTask(Task):
         adapter_of[:known] = before.get("adapter_of", adapter_of[:known])
         near = every.float() @ torch.unique(self.places, dim=0).T  # [P, places learned]
         learned = (near > near.amax(0) - SAME).any(1)
-        opened = sorted({*adapter_of[learned].tolist()})
+        most = int(adapter_of[learned].mode().values)
         adapter_of[learned] = len(ranks)
-        begun = begun_as(opened[0] - 1, len(ranks) - 1, before, self.config.rank)
+        begun = begun_as(most - 1, len(ranks) - 1, before, self.config.rank)
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),
                 **before,
-                **(begun if len(opened) == 1 and opened[0] else {}),
+                **begun,
                 TAG_WEIGHT: torch.cat([tags[:-1], added, tags[-1:]]),
                 "places": every,
                 "adapter_of": adapter_of,

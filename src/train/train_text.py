@@ -92,6 +92,7 @@ PLAIN = 2.0  # how much more often combinations without a style are drawn
 NOWHERE = 0.5  # cosine of the place of what asks for nothing that is known
 HEADS = 0.3  # weight of the labels beside the place, from nothing
 MANY = 40  # combinations of an action
+SURE = 0.6  # cosine with its place; who was further away, if rightly, may come nearer
 NEAR = 2.0  # weight of how far an embedding has gone beside that of the shares of places
 HELD_BACK_SEED = 1  # of the captions that validation reads; training reads those of seed 2
 
@@ -420,8 +421,7 @@ class TextTask(Task):
                 texts = self.outside[language]
                 captions.append(self._damaged(texts[rng.integers(len(texts))], language, rng))
                 continue
-            draws = rng.random() < config.written
-            written = draws and bool(self.sentences[group].get(language))
+            written = rng.random() < config.written and bool(self.sentences[group].get(language))
             by_language = (self.sentences if written else self.fresh)[group]
             if not by_language.get(language):
                 language = next(iter(by_language))
@@ -471,13 +471,14 @@ class TextTask(Task):
                 "kept": kept}  # fmt: skip
 
     def _kept(self, batch: TextBatch, pooled: Tensor, cosines: Tensor) -> Tensor:
-        """How far what the teacher read rightly, and pieces of captions, have gone from where they
-        were, and from the shares of the places [B,P] that they had."""
+        """How far what the teacher read rightly and surely, and pieces of captions, have gone from
+        where they were, and from the shares of the places [B,P] that they had."""
         assert self.teacher is not None
         with torch.no_grad():
             taught = self.teacher(batch.input_ids, batch.attention_mask).pooled  # [B, D]
             shares = PLACE_SCALE * taught @ self.places.T
-        right = (shares.argmax(-1) == batch.group) | (batch.group < 0)
+        sure, at = (shares / PLACE_SCALE).max(-1)
+        right = (at == batch.group) & (sure >= SURE) | (batch.group < 0)
         if not right.any():
             return cosines.new_zeros(())
         spread = kl_div(
@@ -494,9 +495,8 @@ class TextTask(Task):
         tower, places = self._trained(module)
         figures = {}
         for language in self.config.languages:
-            pairs = [
-                (t, i) for i, group in enumerate(self.held_back) for t in group.get(language, [])
-            ]
+            held_back = enumerate(self.held_back)
+            pairs = [(text, i) for i, group in held_back for text in group.get(language, [])]
             if not pairs:
                 continue
             embeddings = encode_captions(tower, self.tokenizer, [text for text, _ in pairs])
