@@ -25,6 +25,7 @@ MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on no
 AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are flat enough
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
+ON_LEGS = 0.25  # metres that hips are above the lower foot, if that carries them
 FALL = -3.0  # m/s² of the hips, below which the body flies
 # m/s of the hips from which on no foot is planted; smoothing of them.
 RUNNING, PACE_SECONDS = 2.0, 0.2
@@ -64,7 +65,13 @@ def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
     return np.asarray(votes >= 2, dtype=np.float32)
 
 
-def grounding(balls: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
+def on_legs(balls: np.ndarray, hips: np.ndarray) -> np.ndarray:
+    """In which frames [T] the hips are above a foot: who lies, or sits on the floor, stands on no
+    foot but one that claims it."""
+    return np.asarray(hips[..., 1].mean(1) - balls[..., 1].min(1) > ON_LEGS)
+
+
+def grounding(balls: np.ndarray, hips: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
     """What brings both feet down, or up, to the floor [T,2,3]: as much as the lower one is off it.
 
     A path can carry a pelvis higher or lower than the legs below it were made for. The lowest of
@@ -73,7 +80,7 @@ def grounding(balls: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
     low = (balls[..., 1] - REST_FOOT_HEIGHT).min(1)
     low = -greatest(-low, 2 * round(AROUND_SECONDS * fps) + 1)
     low = np.sign(low) * (np.abs(low) - FLAT).clip(min=0)
-    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1)
+    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1) * on_legs(balls, hips)
     free = 1.0 - greatest(kept.astype(float), 2 * round(0.2 * fps) + 1)
     off = smoothed(low[:, None] * free, 0.1 * fps)
     found = np.zeros_like(balls)
@@ -94,7 +101,8 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     vertical = np.abs(np.gradient(height, axis=0)) * fps
     waist = smoothed(hips[..., 1].mean(1), 0.05 * fps)
     flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
-    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None]
+    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL)
+    low &= (~flies & on_legs(balls, hips))[:, None]
     lower = np.arange(2) == height.argmin(1)[:, None]
     return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
 
@@ -148,7 +156,7 @@ def foot_shifts(
             where it was kept.
     """
     kept = np.zeros((len(balls), 2), dtype=bool) if kept is None else kept
-    shifts = grounding(balls, kept, fps)
+    shifts = grounding(balls, hips, kept, fps)
     balls = balls + shifts
     stands, runs = standing(balls, hips, contacts, fps), running(hips, fps)[:, None]
     planted = stands & runs

@@ -148,13 +148,23 @@ def test_a_body_too_fast_for_its_steps_takes_more_of_them() -> None:
 def test_a_body_that_hovers_is_put_on_the_floor_and_a_jump_stays() -> None:
     balls = np.stack((on_floor(60), on_floor(60) + [0, 0.1, 0]), 1) + [0, 0.06, 0]
     kept = np.zeros((60, 2), dtype=bool)
-    low = (balls + grounding(balls, kept, FPS))[..., 1] - REST_FOOT_HEIGHT
+    low = (balls + grounding(balls, hips_over(balls), kept, FPS))[..., 1] - REST_FOOT_HEIGHT
     assert np.abs(low[:, 0]).max() < 0.011
     np.testing.assert_allclose(low[:, 1] - low[:, 0], 0.1, atol=1e-9)
     jump = np.stack((on_floor(60), on_floor(60)), 1)
     jump[25:35, :, 1] += 0.3
-    assert np.abs(grounding(jump, kept, FPS)).max() == 0
-    assert np.abs(grounding(jump + [0, 0.5, 0], kept, FPS)).max() == 0  # who hangs, hangs
+    assert np.abs(grounding(jump, hips_over(jump), kept, FPS)).max() == 0
+    hanging = jump + [0, 0.5, 0]
+    assert np.abs(grounding(hanging, hips_over(hanging), kept, FPS)).max() == 0
+
+
+def test_who_lies_or_sits_on_the_floor_stands_on_no_foot_that_claims_nothing() -> None:
+    balls = np.stack((on_floor(60), on_floor(60)), 1) + [0, 0.05, 0]
+    hips = balls + [0, 0.1, -0.8]
+    none = np.zeros((60, 2))
+    shifts, planted = foot_shifts(balls, hips, none, FPS)
+    assert not planted.any() and not shifts.any()
+    assert standing(balls, hips, none + 1, FPS).all()
 
 
 def test_a_kept_beginning_says_where_the_foot_stands_on() -> None:
