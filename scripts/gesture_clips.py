@@ -848,14 +848,18 @@ def die(scene: Scene) -> Body:
 
 
 def crouch(scene: Scene) -> Body:
-    """Down on bent knees, and there it stays."""
-    body = scene.standing(width=0.26)
+    """Down low over bent knees, one foot behind on its ball, a hand to the floor, and there it
+    stays."""
+    body = scene.standing(width=0.24)
     low = moment(scene, (0, 0), (1.0, 1))
-    sink(body, 0.48 * low, back=0.25)
-    lean(body, 44 * low)
-    nod_by(body, 8 * low)
-    for side in (LEFT, RIGHT):
-        hand(body, side, low, (-0.05, -0.28, 0.36), elbow=(0.5, -1, 0.1))
+    step(scene, body, RIGHT, -0.02, -0.42, SOON + 0.05, 0.45)
+    body.foot_pitch[:, RIGHT] -= 0.7 * low
+    sink(body, 0.52 * low, back=0.0)
+    body.position[:, 2] += 0.11 * low
+    lean(body, 58 * low)
+    nod_by(body, -22 * low)
+    hand(body, RIGHT, low, (0.0, -0.46, 0.20), elbow=(0.5, -1, 0.1))
+    hand(body, LEFT, low, (-0.02, -0.20, 0.36), elbow=(0.6, -1, 0.1))
     return body
 
 

@@ -69,7 +69,7 @@ KEPT = 0.15  # of where the tower sent new captions, which is near everything th
 LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
-MOST = 0.5  # share of a combination's captions that have to agree on its place
+MOST = 0.5  # share of captions that have to agree on a place, and of places on an adapter
 SAME = 1e-6  # in cosine, of two places that are one
 TOLD, MOST_TOLD, MOST_CLIPS, LONGEST = 4, 12, 40, 4.0  # motions, actions, clips, seconds
 ASIDE = 0.3  # how far a style moves from where plain clips are, too
@@ -316,8 +316,9 @@ class ActionTask(Task):
         near = every.float() @ torch.unique(self.places, dim=0).T  # [P, places learned]
         learned = (near > near.amax(0) - SAME).any(1)
         most = int(adapter_of[learned].mode().values)
+        shared = float((adapter_of[learned] == most).float().mean()) > MOST
         adapter_of[learned] = len(ranks)
-        begun = begun_as(most - 1, len(ranks) - 1, before, self.config.rank)
+        begun = begun_as(most - 1, len(ranks) - 1, before, self.config.rank) if shared else {}
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),

@@ -6,7 +6,7 @@ import { gaussian, gradient, maximum, minimum, round } from "./curves.js";
 import { REST_FOOT_HEIGHT } from "./skeleton.js";
 
 const THRESHOLD = 0.5, MAX_CLAIM = 0.12, AROUND_SECONDS = 0.4, FLAT = 0.01;
-const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, ON_LEGS = 0.25, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
+const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, LEVEL = 0.7, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
 const MAX_GAP_SECONDS = 2 / 30, MIN_PLANT_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
@@ -27,16 +27,21 @@ export function footShifts(balls, hips, contacts, fps, kept) {
   return { shifts, planted };
 }
 
-function onLegs(balls, hips) {
-  return hips[0].map((point, t) => (point[1] + hips[1][t][1]) / 2 - Math.min(balls[0][t][1], balls[1][t][1]) > ON_LEGS);
+function carrying(balls, hips) {
+  return balls.map((path, side) =>
+    path.map((ball, t) => {
+      const [x, y, z] = sub(hips[side][t], ball);
+      return y > LEVEL * Math.hypot(x, z);
+    }),
+  );
 }
 
 function grounding(balls, hips, kept, fps) {
-  const frames = balls[0].length, above = onLegs(balls, hips);
+  const frames = balls[0].length, carries = carrying(balls, hips);
   let low = Array.from({ length: frames }, (_, t) => Math.min(balls[0][t][1], balls[1][t][1]) - REST_FOOT_HEIGHT);
   low = minimum(low, 2 * round(AROUND_SECONDS * fps) + 1);
   low = low.map((x) => Math.sign(x) * Math.max(Math.abs(x) - FLAT, 0));
-  low = low.map((x, t) => (above[t] ? x * clamp(2 - Math.abs(x) / MAX_CLAIM, 0, 1) : 0));
+  low = low.map((x, t) => (carries[0][t] || carries[1][t] ? x * clamp(2 - Math.abs(x) / MAX_CLAIM, 0, 1) : 0));
   return kept.map((legs) => {
     const near = maximum(legs.map(Number), 2 * round(0.2 * fps) + 1);
     const off = gaussian(low.map((x, t) => x * (1 - near[t])), 0.1 * fps);
@@ -46,16 +51,17 @@ function grounding(balls, hips, kept, fps) {
 
 function standing(balls, hips, contacts, fps) {
   const height = balls.map((path) => path.map((point) => point[1] - REST_FOOT_HEIGHT));
-  const claimed = height.map((row, side) => row.map((h, t) => contacts[side][t] > THRESHOLD && h < MAX_CLAIM));
+  const carries = carrying(balls, hips);
+  const claimed = height.map((row, side) => row.map((h, t) => contacts[side][t] > THRESHOLD && h < MAX_CLAIM && carries[side][t]));
   if (balls[0].length < 2) return claimed;
   const vertical = height.map((row) => gradient(row).map((v) => Math.abs(v) * fps));
   const waist = gaussian(hips[0].map((point, t) => (point[1] + hips[1][t][1]) / 2), 0.05 * fps);
-  const flies = gradient(gradient(waist)).map((a) => a * fps * fps < FALL), above = onLegs(balls, hips);
+  const flies = gradient(gradient(waist)).map((a) => a * fps * fps < FALL);
   return claimed.map((row, side) =>
     row.map((claim, t) => {
       if (claim) return true;
       const lower = height[0][t] <= height[1][t] ? 0 : 1;
-      const low = height[side][t] < MAX_SUPPORT && vertical[side][t] < MAX_VERTICAL && !flies[t] && above[t];
+      const low = height[side][t] < MAX_SUPPORT && vertical[side][t] < MAX_VERTICAL && !flies[t] && carries[side][t];
       return !claimed[0][t] && !claimed[1][t] && low && lower === side;
     }),
   );

@@ -25,7 +25,7 @@ MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on no
 AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are flat enough
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
-ON_LEGS = 0.25  # metres that hips are above the lower foot, if that carries them
+LEVEL = 0.7  # how steep a leg is, from hip to ball, that carries: up by ahead
 FALL = -3.0  # m/s² of the hips, below which the body flies
 # m/s of the hips from which on no foot is planted; smoothing of them.
 RUNNING, PACE_SECONDS = 2.0, 0.2
@@ -65,10 +65,11 @@ def detect_contacts(positions: np.ndarray, fps: float) -> np.ndarray:
     return np.asarray(votes >= 2, dtype=np.float32)
 
 
-def on_legs(balls: np.ndarray, hips: np.ndarray) -> np.ndarray:
-    """In which frames [T] the hips are above a foot: who lies, or sits on the floor, stands on no
-    foot but one that claims it."""
-    return np.asarray(hips[..., 1].mean(1) - balls[..., 1].min(1) > ON_LEGS)
+def carrying(balls: np.ndarray, hips: np.ndarray) -> np.ndarray:
+    """Which legs [T,2] go down to the floor. Who lies, or sits on it, stands on no foot; and held
+    in a push-up, a straight leg that is made a little shorter has its knee in the floor."""
+    legs = hips - balls
+    return np.asarray(legs[..., 1] > LEVEL * np.hypot(legs[..., 0], legs[..., 2]))
 
 
 def grounding(balls: np.ndarray, hips: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
@@ -80,7 +81,7 @@ def grounding(balls: np.ndarray, hips: np.ndarray, kept: np.ndarray, fps: float)
     low = (balls[..., 1] - REST_FOOT_HEIGHT).min(1)
     low = -greatest(-low, 2 * round(AROUND_SECONDS * fps) + 1)
     low = np.sign(low) * (np.abs(low) - FLAT).clip(min=0)
-    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1) * on_legs(balls, hips)
+    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1) * carrying(balls, hips).any(1)
     free = 1.0 - greatest(kept.astype(float), 2 * round(0.2 * fps) + 1)
     off = smoothed(low[:, None] * free, 0.1 * fps)
     found = np.zeros_like(balls)
@@ -95,14 +96,14 @@ def standing(balls: np.ndarray, hips: np.ndarray, contacts: np.ndarray, fps: flo
     fast is landing or swinging.
     """
     height = balls[..., 1] - REST_FOOT_HEIGHT  # T 2
-    claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM)
+    carries = carrying(balls, hips)
+    claimed = (contacts > THRESHOLD) & (height < MAX_CLAIM) & carries
     if len(balls) < 2:
         return np.asarray(claimed)
     vertical = np.abs(np.gradient(height, axis=0)) * fps
     waist = smoothed(hips[..., 1].mean(1), 0.05 * fps)
     flies = np.gradient(np.gradient(waist)) * fps**2 < FALL
-    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL)
-    low &= (~flies & on_legs(balls, hips))[:, None]
+    low = (height < MAX_SUPPORT) & (vertical < MAX_VERTICAL) & ~flies[:, None] & carries
     lower = np.arange(2) == height.argmin(1)[:, None]
     return np.asarray(claimed | (~claimed.any(1, keepdims=True) & low & lower))
 
