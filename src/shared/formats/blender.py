@@ -35,7 +35,9 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 if target.endswith(".fbx"):
     scene.render.fps = max(1, round(float(fps)))
-    bpy.ops.import_scene.gltf(filepath=source, bone_heuristic="BLENDER", disable_bone_shape=True)
+    known = bpy.ops.import_scene.gltf.get_rna_type().properties.keys()
+    shapes = {name: True for name in ("disable_bone_shape",) if name in known}
+    bpy.ops.import_scene.gltf(filepath=source, bone_heuristic="BLENDER", **shapes)
 else:
     bpy.ops.import_scene.fbx(filepath=source)
     scene.render.fps_base = 1.0
@@ -141,7 +143,8 @@ def _convert(source: Path, target: Path, told: Path, fps: float) -> None:
         env={**os.environ, "BLENDER_USER_RESOURCES": str(target.parent)},
     )
     if done.returncode or not target.exists():
-        said = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+        lines = (done.stdout + done.stderr).splitlines()
+        said = [line.strip() for line in lines if line.strip() and "script failed" not in line]
         raise UserError(
             f"{told}: Blender ({program}) could not convert it: {said[-1] if said else 'no word'}"
             "; open it in Blender, or take another format"
