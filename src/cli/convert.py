@@ -49,7 +49,8 @@ def convert(
     fps: Annotated[float | None, typer.Option(help="Frames a second of OUT; those of IN.")] = None,
     root: options.Root = "on",
     names: Annotated[
-        str, typer.Option(help="Joint names in bvh, glb, usd: canonical, mixamo, unity, unreal.")
+        str,
+        typer.Option(help="Joint names in bvh, glb, fbx, usd: canonical, mixamo, unity, unreal."),
     ] = "canonical",
     skeleton: Annotated[
         Path | None,

@@ -28,7 +28,7 @@ def prepare(
         list[str] | None,
         typer.Argument(
             metavar="[SOURCE]...",
-            help="Folders of motion files (bvh, amc, glb, npz, npy), or single files.",
+            help="Folders of motion files (bvh, amc, glb, fbx, npz, npy), or single files.",
         ),
     ] = None,
     captions: Annotated[

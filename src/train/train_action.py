@@ -70,6 +70,7 @@ LEAST_CLIPS = 2
 PLAIN = "plain"  # clips without a style
 SHARED = 0.1  # share of another combination's captions that makes a place theirs, too
 MOST = 0.5  # share of captions that have to agree on a place, and of places on an adapter
+LEAST = 1e-6  # of the largest singular value, that counts
 SAME = 1e-6  # in cosine, of two places that are one
 TOLD, MOST_TOLD, MOST_CLIPS, LONGEST = 4, 12, 40, 4.0  # motions, actions, clips, seconds
 ASIDE = 0.3  # how far a style moves from where plain clips are, too
@@ -319,6 +320,8 @@ class ActionTask(Task):
         shared = float((adapter_of[learned] == most).float().mean()) > MOST
         adapter_of[learned] = len(ranks)
         begun = begun_as(most - 1, len(ranks) - 1, before, self.config.rank) if shared else {}
+        if begun:
+            announce(f"going on with adapter {most}, which most of what is learned opens")
         denoiser.load_state_dict(
             {
                 **denoiser.state_dict(),
@@ -472,7 +475,8 @@ def begun_as(old: int, new: int, state: Mapping[str, Tensor], rank: int) -> dict
         left, sizes, right = torch.linalg.svd(up @ down, full_matrices=False)
         own = name.replace(f".adapters.{old}.", f".adapters.{new}.")
         roots = sizes[: min(rank, len(down))].sqrt()
-        kept = len(roots)
+        kept = int((sizes[: len(roots)] > LEAST * sizes[0]).sum())  # both maps zero learn nothing
+        roots = roots[:kept]
         first = nn.Linear(down.shape[1], rank, bias=False).weight.detach()
         second = torch.zeros(len(up), rank)
         first[:kept], second[:, :kept] = roots[:, None] * right[:kept], left[:, :kept] * roots

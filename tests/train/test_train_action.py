@@ -27,7 +27,7 @@ from src.shared.model.generation.motion_generator import SampleRequest, TextToMo
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.text_stages import as_features
-from src.train.train_action import ActionTask, aside, network_of, unshared
+from src.train.train_action import ActionTask, aside, begun_as, network_of, unshared
 from src.train.train_text import TextTask
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
@@ -212,6 +212,9 @@ def test_an_adapter_goes_on_from_the_one_that_was_there(
     state = task._denoiser().state_dict()
     downs = [name for name in state if ".adapters.0.0." in name]
     assert downs
+    silent = {name: value * ("adapters.0.1." not in name) for name, value in state.items()}
+    begun = begun_as(0, 1, silent, rank)  # of what is all zeros, one that can learn
+    assert all(value.any() == (".1.0.weight" in name) for name, value in begun.items())
     for name in downs:
         old, new = (
             state[each.replace(".0.weight", ".1.weight")] @ state[each]

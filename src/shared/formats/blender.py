@@ -18,7 +18,7 @@ from ..environment import BLENDER, variable
 from ..errors import UserError
 from ..io.files import atomic_write
 from ..motion.motion import Motion
-from .limits import check_size
+from .limits import MAX_SECONDS, check_size
 from .rig import RigClip
 from .writers.glb import write_glb, write_glb_clip
 
@@ -40,6 +40,8 @@ if target.endswith(".fbx"):
     bpy.ops.import_scene.gltf(filepath=source, bone_heuristic="BLENDER", **shapes)
 else:
     bpy.ops.import_scene.fbx(filepath=source)
+    with open(target + ".rate", "w") as stream:
+        stream.write(str(scene.render.fps / scene.render.fps_base))
     scene.render.fps_base = 1.0
 rigs = [item for item in bpy.data.objects if item.type == "ARMATURE"]
 if not rigs:
@@ -48,11 +50,14 @@ rig = max(rigs, key=lambda item: len(item.data.bones))
 for item in bpy.data.objects:
     if item is not rig:
         item.animation_data_clear()
+        if getattr(item.data, "shape_keys", None):
+            item.data.shape_keys.animation_data_clear()
 if rig.animation_data and rig.animation_data.action:
     scene.frame_start, scene.frame_end = map(round, rig.animation_data.action.frame_range)
 if target.endswith(".fbx"):
     bpy.ops.export_scene.fbx(
         filepath=target, object_types={"ARMATURE", "MESH", "EMPTY"}, add_leaf_bones=False,
+        path_mode="COPY", embed_textures=True,
         bake_anim_use_all_actions=False, bake_anim_use_nla_strips=False,
         bake_anim_simplify_factor=0, bake_anim_force_startend_keying=True,
     )
@@ -111,8 +116,9 @@ def through_glb(write: Callable[[Path], object], path: Path, fps: float) -> Path
 
 
 @contextmanager
-def as_glb(path: Path) -> Iterator[Path]:
-    """A GLB of what an FBX holds, for as long as this is open.
+def as_glb(path: Path) -> Iterator[tuple[Path, float]]:
+    """A GLB of what an FBX holds, for as long as this is open, and its frames a second, which the
+    GLB has rounded.
 
     Raises:
         UserError: no such file, no Blender, or one that Blender cannot read.
@@ -122,7 +128,7 @@ def as_glb(path: Path) -> Iterator[Path]:
         glb = Path(folder, f"{path.stem}.glb")
         _convert(path.absolute(), glb, path, 30.0)
         try:
-            yield glb
+            yield glb, float(Path(f"{glb}.rate").read_text(encoding="utf-8"))
         except UserError as error:
             raise type(error)(str(error).replace(str(glb), str(path))) from error
 
@@ -134,14 +140,25 @@ def _convert(source: Path, target: Path, told: Path, fps: float) -> None:
     script.write_text(SCRIPT, encoding="utf-8")
     alone = ["--background", "--factory-startup", "--python-exit-code", "1", "--python"]
     before = [] if "python" in Path(program).name.lower() else alone
-    done = subprocess.run(
-        [program, *before, str(script), "--", str(source), str(target), f"{fps:.6g}"],
-        capture_output=True,
-        text=True,
-        errors="replace",
-        stdin=subprocess.DEVNULL,
-        env={**os.environ, "BLENDER_USER_RESOURCES": str(target.parent)},
-    )
+    try:
+        done = subprocess.run(
+            [program, *before, str(script), "--", str(source), str(target), f"{fps:.6g}"],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            stdin=subprocess.DEVNULL,
+            timeout=MAX_SECONDS,
+            env={**os.environ, "BLENDER_USER_RESOURCES": str(target.parent)},
+        )
+    except subprocess.TimeoutExpired as error:
+        raise UserError(
+            f"{told}: Blender ({program}) took more than {MAX_SECONDS:g} s; split the file, or take"
+            " another format"
+        ) from error
+    except OSError as error:
+        raise UserError(
+            f"{program} cannot be run: {error.strerror or error}; name another Blender in {BLENDER}"
+        ) from error
     if done.returncode or not target.exists():
         lines = (done.stdout + done.stderr).splitlines()
         said = [line.strip() for line in lines if line.strip() and "script failed" not in line]

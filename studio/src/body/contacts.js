@@ -6,7 +6,7 @@ import { gaussian, gradient, maximum, minimum, round } from "./curves.js";
 import { REST_FOOT_HEIGHT } from "./skeleton.js";
 
 const THRESHOLD = 0.5, MAX_CLAIM = 0.12, AROUND_SECONDS = 0.4, FLAT = 0.01;
-const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, LEVEL = 0.7, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
+const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, STEEP = 0.7, FALL = -3.0, RUNNING = 2.0, PACE_SECONDS = 0.2;
 const MAX_GAP_SECONDS = 2 / 30, MIN_PLANT_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
@@ -31,7 +31,7 @@ function carrying(balls, hips) {
   return balls.map((path, side) =>
     path.map((ball, t) => {
       const [x, y, z] = sub(hips[side][t], ball);
-      return y > LEVEL * Math.hypot(x, z);
+      return y > STEEP * Math.hypot(x, z);
     }),
   );
 }

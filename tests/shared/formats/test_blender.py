@@ -102,6 +102,16 @@ def test_a_character_of_fbx_moves_with_its_mesh(walk: Motion, tmp_path: Path) ->
     assert path.stat().st_size > 400_000  # the mesh
 
 
+def test_a_program_that_cannot_be_run_is_told(
+    walk: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (program := tmp_path / "nonsense").write_bytes(b"\0\1nothing to run")
+    program.chmod(0o755)
+    monkeypatch.setenv(BLENDER, str(program))
+    with pytest.raises(UserError, match="nonsense cannot be run: "):
+        write_motion(walk, tmp_path / "a.fbx")
+
+
 @needs_blender
 def test_a_broken_file_is_told(tmp_path: Path) -> None:
     (tmp_path / "a.fbx").write_bytes(b"Kaydara FBX Binary  \0\x1a\0" + bytes(100))

@@ -25,7 +25,7 @@ MAX_CLAIM = 0.12  # metres above the standing height; a higher foot stands on no
 AROUND_SECONDS, FLAT = 0.4, 0.01  # in which a foot comes down; metres that are flat enough
 MAX_SUPPORT = 0.08  # metres; a lower foot carries the body if none other does,
 MAX_VERTICAL = 0.5  # m/s, unless it rises or falls faster than this
-LEVEL = 0.7  # how steep a leg is, from hip to ball, that carries: up by ahead
+STEEP = 0.7  # how steep a leg is, from hip to ball, that carries: up by ahead
 FALL = -3.0  # m/s² of the hips, below which the body flies
 # m/s of the hips from which on no foot is planted; smoothing of them.
 RUNNING, PACE_SECONDS = 2.0, 0.2
@@ -69,7 +69,7 @@ def carrying(balls: np.ndarray, hips: np.ndarray) -> np.ndarray:
     """Which legs [T,2] go down to the floor. Who lies, or sits on it, stands on no foot; and held
     in a push-up, a straight leg that is made a little shorter has its knee in the floor."""
     legs = hips - balls
-    return np.asarray(legs[..., 1] > LEVEL * np.hypot(legs[..., 0], legs[..., 2]))
+    return np.asarray(legs[..., 1] > STEEP * np.hypot(legs[..., 0], legs[..., 2]))
 
 
 def grounding(balls: np.ndarray, hips: np.ndarray, kept: np.ndarray, fps: float) -> np.ndarray:
