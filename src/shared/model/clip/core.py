@@ -96,7 +96,6 @@ if TYPE_CHECKING:
 SMALL = "small"  # text-model name of the random-init tower
 OWN = (SMALL, PAIRS)  # made here, with a tokenizer of our own; any other is a pretrained one
 PLACE_SCALE = 30.0  # factor on cosines to places, in training of them, too
-ALIKE = 0.7  # cosine with the nearest place, of places that a text may lie between
 INITIAL_TEMPERATURE = 0.1  # TMR's value
 MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
 
@@ -160,11 +159,8 @@ class TextTower(nn.Module):
         pooled = self._embedding(mean)
         if not self.config.text_places or self.training:
             return pooled
-        places = self.get_buffer("places").float()
         shares = (PLACE_SCALE * pooled @ self.place_keys().T).softmax(-1)  # [B, P]
-        alike = (places @ places.T >= ALIKE).to(shares)  # half a run and half a bow is neither
-        likeliest = (shares @ alike).argmax(-1)  # the place that has most of them about it
-        return normalize((shares * alike[likeliest]) @ places, dim=-1)
+        return normalize(shares @ self.get_buffer("places").float(), dim=-1)
 
     def closeness(self, mean: Tensor) -> Tensor | None:
         """Cosine [B] of the encoder's mean [B, H_text] with the nearest place's key, before places
