@@ -24,8 +24,8 @@ from .writers.glb import write_glb, write_glb_clip
 
 # Run by Blender: IN OUT and the frames a second of IN, of which a .glb says nothing to Blender.
 # Frames are kept one by one where their rate is a whole number, the one kind that Blender's
-# importers and exporters agree on; others are sampled at the nearest. Of several movements the one
-# of the largest skeleton is taken. A bone's shape would become a mesh of the file.
+# importers and exporters agree on; others are sampled at the nearest, by which keys are placed. Of
+# several movements one of the largest skeleton is taken. A bone's shape would become a mesh.
 SCRIPT = """
 import sys
 import bpy
@@ -35,13 +35,9 @@ bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 if target.endswith(".fbx"):
     scene.render.fps = max(1, round(float(fps)))
-    known = bpy.ops.import_scene.gltf.get_rna_type().properties.keys()
-    shapes = {name: True for name in ("disable_bone_shape",) if name in known}
-    bpy.ops.import_scene.gltf(filepath=source, bone_heuristic="BLENDER", **shapes)
+    bpy.ops.import_scene.gltf(filepath=source, bone_heuristic="BLENDER", disable_bone_shape=True)
 else:
     bpy.ops.import_scene.fbx(filepath=source)
-    with open(target + ".rate", "w") as stream:
-        stream.write(str(scene.render.fps / scene.render.fps_base))
     scene.render.fps_base = 1.0
 rigs = [item for item in bpy.data.objects if item.type == "ARMATURE"]
 if not rigs:
@@ -78,14 +74,10 @@ def find_blender() -> str:
     named = variable(BLENDER)
     found = which(named or "blender") or (not named and find_spec("bpy") and sys.executable)
     if not found:
+        fault = f"{BLENDER}={named} is no program" if named else "FBX needs Blender, not found here"
         raise UserError(
-            (
-                f"{BLENDER}={named} is no program"
-                if named
-                else "FBX needs Blender, which is not here"
-            )
-            + "; install Blender 4.2 or newer, or `pip install bpy`, and name the program, or the"
-            f" Python that has bpy, in {BLENDER}; or take .glb, which needs nothing"
+            f"{fault}; install Blender 4.2 or newer, or `pip install bpy`, and name the program, or"
+            f" the Python that has bpy, in {BLENDER}; or take .glb, which needs nothing"
         )
     return str(found)
 
@@ -116,9 +108,8 @@ def through_glb(write: Callable[[Path], object], path: Path, fps: float) -> Path
 
 
 @contextmanager
-def as_glb(path: Path) -> Iterator[tuple[Path, float]]:
-    """A GLB of what an FBX holds, for as long as this is open, and its frames a second, which the
-    GLB has rounded.
+def as_glb(path: Path) -> Iterator[Path]:
+    """A GLB of what an FBX holds, for as long as this is open.
 
     Raises:
         UserError: no such file, no Blender, or one that Blender cannot read.
@@ -128,7 +119,7 @@ def as_glb(path: Path) -> Iterator[tuple[Path, float]]:
         glb = Path(folder, f"{path.stem}.glb")
         _convert(path.absolute(), glb, path, 30.0)
         try:
-            yield glb, float(Path(f"{glb}.rate").read_text(encoding="utf-8"))
+            yield glb
         except UserError as error:
             raise type(error)(str(error).replace(str(glb), str(path))) from error
 
@@ -138,7 +129,8 @@ def _convert(source: Path, target: Path, told: Path, fps: float) -> None:
     program = find_blender()
     script = target.with_name("convert.py")
     script.write_text(SCRIPT, encoding="utf-8")
-    alone = ["--background", "--factory-startup", "--python-exit-code", "1", "--python"]
+    quiet = ["--background", "--factory-startup", "--disable-autoexec"]  # runs no script of a file
+    alone = [*quiet, "--python-exit-code", "1", "--python"]
     before = [] if "python" in Path(program).name.lower() else alone
     try:
         done = subprocess.run(

@@ -1,9 +1,12 @@
 """FBX through Blender: what is said where there is none; where there is one, that it comes back."""
 
+import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from src.shared.data.retarget.read_motion import open_recording, read_motion
 from src.shared.data.retarget.to_rig import read_target
@@ -11,6 +14,7 @@ from src.shared.data.synthetic.clips import generate_clip, sample_specs
 from src.shared.environment import BLENDER
 from src.shared.errors import UserError
 from src.shared.formats import blender
+from src.shared.formats.readers.glb import GlbFile
 from src.shared.formats.registry import export_motion, write_motion
 from src.shared.motion.motion import Motion, resample_motion
 from tests.integrations.blender_run import blender_python
@@ -93,6 +97,46 @@ def test_a_broken_rate_is_sampled_at_the_nearest_whole_one(walk: Motion, tmp_pat
 
 
 @needs_blender
+@pytest.mark.parametrize(("fps", "base"), [(25, 2.0), (30, 1.001), (24, 1.001)])
+def test_a_file_of_a_broken_rate_is_read_as_long_and_as_fast_as_it_is(
+    walk: Motion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, fps: int, base: float
+) -> None:
+    broken = f"scene.render.fps, scene.render.fps_base = {fps}, {base}\nrigs = ["
+    assert blender.SCRIPT.count("rigs = [") == 1
+    with monkeypatch.context() as other:  # somebody else's file, of a broken rate
+        other.setattr(blender, "SCRIPT", blender.SCRIPT.replace("rigs = [", broken))
+        path = write_motion(resample_motion(walk, float(fps)), tmp_path / "a.fbx")
+    back = read_motion(path, fps=None)
+    assert back.fps == round(fps / base)
+    wanted = resample_motion(replace(resample_motion(walk, float(fps)), fps=fps / base), back.fps)
+    frames = min(back.num_frames, wanted.num_frames)
+    assert frames >= wanted.num_frames - 2
+    apart = np.linalg.norm(back.positions()[:frames] - wanted.positions()[:frames], axis=-1)
+    assert apart.max() < 0.03
+
+
+@needs_blender
+def test_the_texture_of_a_character_stays(walk: Motion, tmp_path: Path) -> None:
+    hero = GlbFile.read(write_motion(walk, tmp_path / "hero.glb"))
+    picture = io.BytesIO()
+    Image.new("RGB", (8, 8), "red").save(picture, "PNG")
+    start = len(hero.data)
+    hero.data += picture.getvalue() + bytes(-len(picture.getvalue()) % 4)
+    document = hero.document
+    size = len(picture.getvalue())
+    document["bufferViews"].append({"buffer": 0, "byteOffset": start, "byteLength": size})
+    view = len(document["bufferViews"]) - 1
+    document["images"] = [{"bufferView": view, "mimeType": "image/png", "name": "skin"}]
+    document["textures"] = [{"source": 0}]
+    document["materials"][0].setdefault("pbrMetallicRoughness", {})["baseColorTexture"] = {
+        "index": 0
+    }
+    hero.write(tmp_path / "hero.glb")
+    path = read_target(tmp_path / "hero.glb").write(walk, tmp_path / "moved.fbx")
+    assert picture.getvalue() in path.read_bytes()
+
+
+@needs_blender
 def test_a_character_of_fbx_moves_with_its_mesh(walk: Motion, tmp_path: Path) -> None:
     hero = write_motion(walk, tmp_path / "hero.fbx", names="mixamo")
     target = read_target(hero)
@@ -100,6 +144,23 @@ def test_a_character_of_fbx_moves_with_its_mesh(walk: Motion, tmp_path: Path) ->
     path = target.write(walk, tmp_path / "moved.fbx")
     assert np.abs(read_motion(path).positions() - walk.positions()).max() < 1e-4
     assert path.stat().st_size > 400_000  # the mesh
+
+
+def test_a_name_is_no_argument(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever a file is called, Blender is told its whole path, after the script and `--`."""
+    program, heard = tmp_path / "listens", tmp_path / "heard"
+    program.write_text(f'#!/bin/sh\nprintf "%s\\n" "$@" > "{heard}"\nexit 1\n')
+    program.chmod(0o755)
+    monkeypatch.setenv(BLENDER, str(program))
+    name = '--python-expr "import os; $(touch done) `touch done`.fbx'
+    (tmp_path / name).write_bytes(b"Kaydara")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(UserError, match="could not convert it"):
+        read_motion(Path(name))
+    arguments = heard.read_text(encoding="utf-8").splitlines()
+    assert arguments.index("--") == len(arguments) - 4  # and source, target, rate
+    assert arguments[-3] == str(tmp_path / name)
+    assert "--disable-autoexec" in arguments and not (tmp_path / "done").exists()
 
 
 def test_a_program_that_cannot_be_run_is_told(

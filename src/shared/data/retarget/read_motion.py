@@ -81,10 +81,8 @@ def open_recording(
         told = still if ending == ".vrm" and clip.num_frames == 1 else ()
         return Recording(name, clip=clip, up="Y", metres=1.0, text=clip.text, warnings=told)
     if ending == ".fbx":
-        with as_glb(path) as (glb, rate):
-            moved = replace(read_glb(glb), fps=rate)
-            text = moved.text
-        return Recording("FBX, by Blender", clip=moved, up="Y", metres=1.0, text=text)
+        with as_glb(path) as glb:
+            return replace(open_recording(glb), format="FBX, by Blender")
     if ending == ".csv":
         return Recording("CSV of this project", motion=read_motion_csv(path))
     if ending == ".amc":

@@ -205,7 +205,7 @@ def read_target(path: str | Path, *, mapping: Path | None = None) -> Target:
     """
     path, profiles = Path(path), load_mappings(mapping)
     if path.suffix.lower() == ".fbx":
-        with as_glb(path) as (glb, _):
+        with as_glb(path) as glb:
             return replace(read_target(glb, mapping=mapping), path=path)
     if path.suffix.lower() in (".glb", ".vrm"):
         character = read_glb_skeleton(path)
