@@ -381,9 +381,8 @@ class TrainActionConfig(TrainConfig):
     init: str = "starter"
     rank: int = Field(16, ge=1)  # of the adapters
     condition_dropout: float = Field(0.1, ge=0, lt=1)  # ruling 14
-    first_share: float = Field(
-        0, ge=0, lt=1
-    )  # of a batch, that is noise alone: where sampling begins
+    first_share: float = Field(0, ge=0, lt=1)  # of a batch, that is noise alone, where sampling
+    # begins; for clips in which the same happens at the same second
     losses: LossWeights = LossWeights()
     constraints: ConstraintShares = ConstraintShares()  # of networks with generation.constraints
     tower_steps: int = Field(300, ge=1)  # of the text tower, before the motion

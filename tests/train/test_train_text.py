@@ -3,7 +3,7 @@
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ from src.shared.config_loader import load_train
 from src.shared.config_schema import TrainTextConfig
 from src.shared.data.captions.book import packaged_book
 from src.shared.errors import UserError
+from src.shared.model.clip.out_of_domain import words_of
 from src.shared.model.clip.pretrained import ClipBundle, place_captions
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.train import train_text
@@ -143,7 +144,7 @@ def test_a_generator_gets_a_tower_of_token_pairs(
 
 
 def test_a_tower_with_places_goes_on_with_more_sentences(
-    prepared: Path, paired: Hardened, tmp_path: Path
+    prepared: Path, paired: Hardened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own, more = paired.hard, tmp_path / "more"
     old = TextToMotion.from_pretrained(own)
@@ -165,6 +166,13 @@ def test_a_tower_with_places_goes_on_with_more_sentences(
     assert {each["action"] for each in task.labels.values()} <= set(old.card.tags)
     loss = task.training_step(task.module.eval().train(), task.batch(Part(0, 0, 1)))
     assert loss["kept"] > 0 and torch.isfinite(loss["loss"])
+    batch = task.batch(Part(0, 0, 1))
+    asked = replace(batch, group=batch.group.clamp(min=0))  # without pieces, which are held anyway
+    monkeypatch.setattr(train_text, "SURE", -1.0)
+    held = task.training_step(task.module, asked)["kept"]
+    monkeypatch.setattr(train_text, "SURE", 2.0)  # what was not sure may come nearer
+    assert held > 0 and task.training_step(task.module, asked)["kept"] == 0
+    monkeypatch.undo()
     first = task.validation(task.module)["right"]
     assert harden(config).figures["right"] > first - 0.02
     new = TextToMotion.from_pretrained(more)
@@ -174,6 +182,9 @@ def test_a_tower_with_places_goes_on_with_more_sentences(
     assert torch.equal(old.text.place_keys(), new.text.place_keys())
     assert old.scope is not None and new.scope is not None
     assert old.scope.words <= new.scope.words and old.scope.actions == new.scope.actions
+    book = packaged_book()
+    said = book.captions({"action": "jump"}, num=60, seed=0, whole_sentences=False)["en"]
+    assert {word for text in said for word in words_of(text)} <= new.scope.words
 
 
 def test_going_on_refuses_what_it_would_forget(
