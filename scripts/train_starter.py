@@ -60,7 +60,7 @@ ADAPTED = {
               ("steps=4000",)),
 }  # fmt: skip
 GESTURES = ["rank=20", "steps=3600", "tower-steps=4500", "learning-rate=2e-3", "ema-decay=0.998",
-            "whole=true", "first-share=0.3"]  # fmt: skip
+            "whole=true", "first-share=0.3", "losses.movement=0.05"]  # fmt: skip
 LEAST_CLIPS = 2  # of an action, to be learned
 TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"

@@ -308,6 +308,7 @@ class LossWeights(Config):
     reconstruction: float = Field(1.0, ge=0)
     velocity: float = Field(0.0, ge=0)
     root: float = Field(0.0, ge=0)
+    movement: float = Field(0.0, ge=0)
     geodesic: float = Field(0.0, ge=0)
     position: float = Field(0.0, ge=0)
     foot_contact: float = Field(0.0, ge=0)

@@ -20,6 +20,7 @@ from ...motion.skeleton import FOOT_JOINTS, NUM_JOINTS
 from ..diffusion import GaussianDiffusion
 
 NEED_ROOT_TRACK = ("root", "foot_contact", "foot_slide")
+LEAST_MOVED = 1e-3  # mean square about the mean pose, z-scored, below which a clip stands still
 
 
 class GenerationLoss(nn.Module):
@@ -146,6 +147,21 @@ def root_loss(motions: Motions) -> Tensor:
     return masked_frames_mean(error.square(), motions.mask)
 
 
+def movement_loss(motions: Motions) -> Tensor:
+    """Squared error of what a clip moves about its mean pose, z-scored, as a share of that; mean
+    over the clips [B]. A nod weighs as much as a jump, which is all that a mean of squares sees."""
+    real = motions.mask[:, :, None, None]
+    frames = real.sum(1, keepdim=True).clamp_min(1)
+
+    def moved(motion: Tensor) -> Tensor:
+        about = motion - (motion * real).sum(1, keepdim=True) / frames
+        return (about * real).square().sum((1, 2, 3))  # [B]
+
+    least = LEAST_MOVED * frames.flatten() * motions.true[0, 0].numel()
+    missed = moved(motions.predicted - motions.true)
+    return (missed / moved(motions.true).clamp_min(least)).mean()
+
+
 def geodesic_loss(motions: Motions) -> Tensor:
     """Mean angle in radians between predicted and true local rotations."""
     predicted, true = motions.raw_predicted.rotations, motions.raw_true.rotations
@@ -181,6 +197,7 @@ def foot_slide_loss(motions: Motions) -> Tensor:
 TERMS: dict[str, Callable[[Motions], Tensor]] = {  # beside the reconstruction
     "velocity": velocity_loss,
     "root": root_loss,
+    "movement": movement_loss,
     "geodesic": geodesic_loss,
     "position": position_loss,
     "foot_contact": foot_contact_loss,

@@ -19,6 +19,7 @@ TERMS = (
     "reconstruction",
     "velocity",
     "root",
+    "movement",
     "geodesic",
     "position",
     "foot_contact",
@@ -62,7 +63,7 @@ def run(loss: GenerationLoss, predicted: torch.Tensor, true: torch.Tensor, mask=
     return loss(output, clean, noisy, noise, timesteps, mask)
 
 
-@pytest.mark.parametrize("term", TERMS[:6])
+@pytest.mark.parametrize("term", TERMS[:7])
 @pytest.mark.parametrize("prediction", ["sample", "epsilon"])
 def test_a_perfect_prediction_costs_nothing(term: str, prediction: str):
     terms = run(losses({term: 1.0}, prediction), motion(), motion())
@@ -105,6 +106,17 @@ def test_root_is_the_error_of_the_root_row_alone():
     predicted = motion(1)
     expected = ((predicted - true) / loss.std)[:, :, ROOT_ROW].square().mean().item()
     assert run(loss, predicted, true)["root"].item() == pytest.approx(expected, rel=1e-4)
+
+
+def test_movement_weighs_small_clips_as_large_ones():
+    loss, true = losses({"movement": 1.0}), motion()
+    still = true.mean(1, keepdim=True)
+    small = still + 0.7 * (true - still)
+    frozen = [run(loss, still.expand_as(each), each)["movement"].item() for each in (true, small)]
+    assert frozen == pytest.approx([1, 1], rel=1e-4)
+    half = run(loss, still + 0.5 * (true - still), true)["movement"].item()
+    assert half == pytest.approx(0.25, rel=1e-4)
+    assert run(loss, true + 0.3, true)["movement"].item() == pytest.approx(0, abs=1e-6)
 
 
 def test_geodesic_is_the_angle_in_radians():
