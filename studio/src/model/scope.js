@@ -18,13 +18,15 @@ export function wordsOf(text) {
   return words;
 }
 
+const listed = (words) => (typeof words === "string" ? words.split(" ") : words); // folders of before had lists
+
 export class Scope {
   /** @param {object} meta scope.json @param {Weights} table its means @param {TextTower} tower */
   constructor(meta, table, tower) {
     this.meta = meta;
     this.tower = tower;
-    this.words = new Set(meta.words);
-    this.fillers = new Set(meta.fillers ?? meta.words);
+    this.words = new Set(listed(meta.words));
+    this.fillers = new Set(listed(meta.fillers ?? meta.words));
     this.keyWords = new Map(Object.entries(meta["key-words"]));
     const means = table.floats("means"), dim = means.length / meta.actions.length;
     this.means = meta.actions.map((_, row) => means.subarray(row * dim, (row + 1) * dim));

@@ -39,6 +39,7 @@ from ...io.files import atomic_write, load_json, write_json
 from ..checkpoint import of_another_version
 
 TABLE_FILE, META_FILE = "scope.safetensors", "scope.json"
+WORDS = ("words", "fillers")  # some ten thousand, with a blank between them, in META_FILE
 COVERAGES = (0.9, 0.95, 0.98, 0.99, 1.0)  # share of an action's captions its key words cover
 MAX_FALSE_ALARMS = 0.01  # share of held-out captions judged unknown
 OFTENER = 20.0  # times as frequent in a new action's captions as in others is what tells of it
@@ -377,9 +378,9 @@ class OutOfDomainDetector:
             save_file(tables, temporary)
         names = [each.name for each in fields(self) if each.name not in ("means", "captions")]
         meta = {name.replace("_", "-"): getattr(self, name) for name in names}
-        meta |= {"words": sorted(self.words), "fillers": sorted(self.fillers)}
+        meta |= {name: " ".join(sorted(getattr(self, name))) for name in WORDS}
         meta |= {"reliability": dict(self.reliability)}
-        write_json(folder / META_FILE, meta, indent=0)  # some ten thousand words
+        write_json(folder / META_FILE, meta, indent=0)
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
@@ -402,6 +403,9 @@ class OutOfDomainDetector:
             if meta.get("fillers") is None:
                 # folders of before had none: a prompt of trained words alone told nothing
                 meta["fillers"] = meta.get("words")
+            for name in WORDS:  # they had lists
+                if isinstance(meta.get(name), str):
+                    meta[name] = meta[name].split()
             found = TypeAdapter(cls).validate_python(meta)
             rows = {row for actions in found.key_words.values() for row in actions}
             rows |= {*found.captions.values()}

@@ -174,10 +174,12 @@ def test_saving_keeps_the_verdicts(scope: OutOfDomainDetector, tmp_path):
 
 
 def test_an_older_folder_judges_as_it_did(scope: OutOfDomainDetector, tmp_path):
-    """Before there were fillers only key words told, not trained words alone."""
+    """Before there were fillers only key words told, not trained words alone; and words stood in
+    lists."""
     scope.save_pretrained(tmp_path)
     meta = json.loads((tmp_path / META_FILE).read_text())
     del meta["fillers"]
+    meta["words"] = meta["words"].split()
     (tmp_path / META_FILE).write_text(json.dumps(meta))
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.fillers == loaded.words
