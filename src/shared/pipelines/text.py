@@ -225,7 +225,8 @@ class SentenceGenerator:
         if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
             lines = self.generator.scope_warnings([said], again=again)
             asked, made = self._nearest(said), self._nearest(texts[0])
-            same = asked == made or parts[0].plain or parts[0].degrees is not None
+            same = {asked, made} in [{made}, *TWINS]
+            same = same or parts[0].plain or parts[0].degrees is not None
             apart = not parts[0].plain and (lines != [None] or not same)
         if apart:
             lines = self.generator.scope_warnings(texts, again=again)

@@ -164,6 +164,7 @@ def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
     lines = sentences.scope_warnings(["punches three times", "punches three times like a kangaroo"])
     assert lines[0] is None and lines[1] is not None
     assert lines[1].endswith("say it in other words")
+    assert sentences.scope_warnings(["waves three times"]) == [None]  # "bye" is the same gesture
     turned = ["dreht sich um 180 Grad und rennt weg", "er dreht sich um 90 Grad"]
     assert sentences.scope_warnings(turned) == [None, None]  # the angle says that it is a turn
 
