@@ -27,7 +27,6 @@ import torch
 from safetensors import safe_open
 from safetensors.torch import save_file
 from torch import Tensor, nn
-from torch.func import functional_call
 
 from ..shared.config_schema import (
     PROVENANCES,
@@ -55,7 +54,7 @@ from .text_stages import (
     validation_set,
     z_scored_for,
 )
-from .train_generation import Conditions, GuidedDenoiser, draw_known
+from .train_generation import Conditions, GuidedDenoiser, LearnedStep, draw_known
 
 SPACING = "trailing"  # of both: every step of the student is so many of the teacher's
 PAIRS_FOLDER = "pairs"  # in the output folder: a resumed run reads it
@@ -356,17 +355,6 @@ class DistillTask(Task):
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """A folder that `generate --model` reads."""
         self._student(module).save_pretrained(folder)
-
-
-class LearnedStep(GuidedDenoiser):
-    """A denoiser that stays as it is, in the one step that it learns."""
-
-    def predicted(self, *heard: Any, **told: Any) -> Tensor:
-        """With the weights of that step."""
-        step = self.denoiser.one_step
-        assert step is not None, "the network has no one-step-rank"
-        output: Tensor = functional_call(self.denoiser, step.weights(self.denoiser), heard, told)
-        return output
 
 
 def _check_teacher(init: str, teacher: TextToMotion) -> None:

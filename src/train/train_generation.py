@@ -16,6 +16,7 @@ from typing import Any, Self
 import numpy as np
 import torch
 from torch import Tensor, nn
+from torch.func import functional_call
 from torch.nn.functional import pad
 
 from ..shared.config_schema import (
@@ -134,6 +135,17 @@ class GuidedDenoiser(nn.Module):
     def predicted(self, *heard: Any, **told: Any) -> Tensor:
         """As MotionDenoiser.forward, which it is."""
         output: Tensor = self.denoiser(*heard, **told)
+        return output
+
+
+class LearnedStep(GuidedDenoiser):
+    """A denoiser that stays as it is, in the one step that it learns."""
+
+    def predicted(self, *heard: Any, **told: Any) -> Tensor:
+        """With the weights of that step."""
+        step = self.denoiser.one_step
+        assert step is not None, "the network has no one-step-rank"
+        output: Tensor = functional_call(self.denoiser, step.weights(self.denoiser), heard, told)
         return output
 
 

@@ -23,11 +23,19 @@ from src.shared.data.synthetic.clips import generate_clip, spec_for
 from src.shared.errors import UsageError, UserError
 from src.shared.formats.writers.bvh import write_bvh
 from src.shared.model.clip.pretrained import tower_hash
+from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.motion_generator import SampleRequest, TextToMotion, sample_batch
 from src.train.engine import Trainer
 from src.train.task import Part
 from src.train.text_stages import as_features
-from src.train.train_action import ActionTask, aside, begun_as, network_of, unshared
+from src.train.train_action import (
+    ActionTask,
+    OftenInOneStep,
+    aside,
+    begun_as,
+    network_of,
+    unshared,
+)
 from src.train.train_text import TextTask
 
 OLD = ["a person walks forward", "someone waves with the left hand", "she jumps"]
@@ -233,6 +241,32 @@ def test_a_share_of_a_batch_is_noise_alone(model: Path, flops: Path, tmp_path: P
     last = int(timesteps.max())
     assert last == task.diffusion.config.timesteps - 1
     assert 16 < int((timesteps == last).sum()) < 48
+
+
+def test_every_other_clip_that_is_noise_alone_takes_the_learned_step(model: Path) -> None:
+    before = TextToMotion.from_pretrained(model, device="cpu")
+    generation = before.network.generation.model_copy(update={"one_step_rank": 2})
+    network = before.network.model_copy(update={"generation": generation})
+    torch.manual_seed(0)
+    denoiser = MotionDenoiser(network, len(before.card.tags)).eval()
+    with torch.no_grad():
+        for weight in denoiser.parameters():
+            weight.add_(0.1 * torch.randn_like(weight))
+    at_once = denoiser.in_one_step()
+    assert at_once is not None
+    last = generation.diffusion_steps - 1
+    heard = (
+        torch.randn(4, 8, network.motion_rows, generation.motion_channels),
+        torch.tensor([last, last, last - 1, 3]),
+        as_features(torch.randn(4, network.embed_dim)),
+        torch.zeros(4).long(),
+    )
+    with torch.no_grad():
+        shown = OftenInOneStep(denoiser).predicted(*heard)
+        slow, fast = denoiser(*heard), at_once(*heard)
+    assert (slow - fast).abs().max() > 1e-3
+    torch.testing.assert_close(shown[0], fast[0])
+    torch.testing.assert_close(shown[1:], slow[1:])
 
 
 def test_a_style_is_learned_better_where_nothing_else_comes_out(
