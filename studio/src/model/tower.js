@@ -2,6 +2,7 @@
 // (src/shared/model/clip/core.py).
 
 const BASE = 1 << 15, SPECIAL = 3, PLACE_SCALE = 30;
+const ALIKE = 0.7, OWN_SHARE = 0.01; // a text lies between places that are alike
 
 export class TextTower {
   /** @param {Weights} weights @param {Tokenizer} tokenizer */
@@ -72,12 +73,30 @@ export class TextTower {
     }
     const most = Math.max(...shares), weights = shares.map((x) => Math.exp(x - most));
     const total = weights.reduce((a, b) => a + b, 0);
+    const about = weights.map((own, row) => this.alike(row).reduce((sum, other) => sum + weights[other], OWN_SHARE * own));
     const place = new Array(dim).fill(0);
-    weights.forEach((weight, row) => {
-      for (let i = 0; i < dim; i++) place[i] += (weight / total) * this.places[row * dim + i];
-    });
+    for (const row of this.alike(about.indexOf(Math.max(...about)))) {
+      for (let i = 0; i < dim; i++) place[i] += (weights[row] / total) * this.places[row * dim + i];
+    }
     return { place: Float32Array.from(unit(place)), closeness: most / PLACE_SCALE };
   }
+
+  /** Rows of the places that are alike with that of a row, itself among them. */
+  alike(row) {
+    this.near ??= likeness(this.places, this.bias.length);
+    return this.near[row];
+  }
+}
+
+/** For each of some unit rows [P * D], the rows that are alike. */
+function likeness(rows, dim) {
+  const near = Array.from({ length: rows.length / dim }, () => []);
+  near.forEach((list, a) => near.forEach((other, b) => {
+    let cosine = 0;
+    for (let i = 0; i < dim; i++) cosine += rows[a * dim + i] * rows[b * dim + i];
+    if (cosine >= ALIKE) list.push(b);
+  }));
+  return near;
 }
 
 export function unit(values) {

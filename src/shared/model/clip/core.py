@@ -96,6 +96,8 @@ if TYPE_CHECKING:
 SMALL = "small"  # text-model name of the random-init tower
 OWN = (SMALL, PAIRS)  # made here, with a tokenizer of our own; any other is a pretrained one
 PLACE_SCALE = 30.0  # factor on cosines to places, in training of them, too
+ALIKE = 0.7  # cosine with the likeliest place, of places that a text may lie between
+OWN_SHARE = 0.01  # what a place's own share adds to that of all about it: decides between equals
 INITIAL_TEMPERATURE = 0.1  # TMR's value
 MAX_LOGIT_SCALE = math.log(100.0)  # Radford et al. 2021, section 2.5
 
@@ -151,16 +153,20 @@ class TextTower(nn.Module):
     def pool(self, mean: Tensor) -> Tensor:
         """The encoder's mean over a text's tokens [B, H_text] -> [B, D] unit-norm.
 
-        With places [P, D], their mean by the probability of each: a denoiser that has learned
-        what lies there is never asked for what lies between. Where places have keys, those are what
+        With places [P, D], the mean by probability of those that are alike (`ALIKE`), about the one
+        that has most of the probability about it: a denoiser that has learned what lies there is
+        never asked for what lies between. Where places have keys, those are what
         a text is compared with, as in attention (Vaswani et al. 2017, section 3.2.1): places that a
         denoiser grew up with need not lie so that words are told apart.
         """
         pooled = self._embedding(mean)
         if not self.config.text_places or self.training:
             return pooled
+        places = self.get_buffer("places").float()
         shares = (PLACE_SCALE * pooled @ self.place_keys().T).softmax(-1)  # [B, P]
-        return normalize(shares @ self.get_buffer("places").float(), dim=-1)
+        alike = (places @ places.T >= ALIKE).to(shares)  # half a run and half a bow is neither
+        likeliest = (shares @ alike + OWN_SHARE * shares).argmax(-1)
+        return normalize((shares * alike[likeliest]) @ places, dim=-1)
 
     def closeness(self, mean: Tensor) -> Tensor | None:
         """Cosine [B] of the encoder's mean [B, H_text] with the nearest place's key, before places

@@ -4,7 +4,8 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.clip.core import TokenPairEncoder, counted_keys, keys_of
+from src.shared.config_schema import PAIRS, ClipConfig
+from src.shared.model.clip.core import TextTower, TokenPairEncoder, counted_keys, keys_of
 
 BOS, PAD, EOS = 0, 1, 2
 ids = st.lists(st.integers(3, 500), min_size=1, max_size=9)
@@ -57,3 +58,20 @@ def test_a_row_is_kept_where_enough_texts_share_it() -> None:
 
 def test_one_text_counts_a_key_once() -> None:
     assert len(shared_keys([row([5, 5, 5])], 2)) == 0
+
+
+def test_a_text_lies_between_places_that_are_alike_only() -> None:
+    """Near a walk, another walk and a bow it is between the walks, with most of the probability."""
+    config = ClipConfig(text_model=PAIRS, text_pairs=3, text_hidden_size=8, text_places=3)
+    tower = TextTower(config, 8).eval()
+    walk, bow = torch.eye(8)[:2]
+    other = torch.tensor([0.8, 0, 0.6, 0, 0, 0, 0, 0])
+    tower.get_buffer("places").copy_(torch.stack([walk, other, bow]))
+    with torch.no_grad():
+        tower.text_proj.weight.copy_(torch.eye(8))
+        tower.text_proj.bias.zero_()
+        text = torch.tensor([[0.70, 0.705, 0.2, 0, 0, 0, 0, 0], [0.1, 1, 0, 0, 0, 0, 0, 0]])
+        pooled = tower.pool(text)
+    assert torch.allclose(pooled.norm(dim=-1), torch.ones(2))
+    assert pooled[0] @ bow == 0 and pooled[0] @ walk < 0.999 and pooled[0, 2] > 0.1
+    assert torch.allclose(pooled[1], bow)
