@@ -44,12 +44,14 @@ DENOISER = [*MOTION, "batch-size=48", "learning-rate=1e-3", "warmup-steps=200", 
 ADAPTER = ["rank=32", "batch-size=24", "warmup-steps=50", "ema-decay=0.99", "captured-share=1",
            "balance=0.75", "min-frames=32", "max-frames=150",
            *[word for word in DENOISER if word.startswith("losses")]]  # fmt: skip
+WHOLE = ["whole=true", "first-share=0.3", "losses.movement=0.05", "ema-decay=0.998"]
 # What adapters learn (docs/experiments.md, sections 30, 33, 41, 44, 47, 48): prepared folder,
 # actions, styles, settings.
 ADAPTED = {
     "few": ("data", ("bow", "call", "respond"), (), ("steps=1500",)),
     "blows": ("blows", ("slash",), (),
               ("steps=3000", "max-frames=180", "batch-size=16", "ema-decay=0.998")),
+    "strokes": ("blows", ("kick", "punch"), (), ("steps=2000", "rank=16", "batch-size=16", *WHOLE)),
     "gestures": ("data", ("raise", "wave"), ("plain",), ("steps=900", "min-clips=6")),
     "styled": ("data", ("walk",), ("angry", "childish", "chimpira", "giant", "happy", "musical",
                                    "not-confident", "proud", "sad"), ("steps=1000",)),
@@ -59,8 +61,7 @@ ADAPTED = {
     "still": ("data", ("drink", "kneel", "meditate", "push-up", "sit", "zombie"), (),
               ("steps=4000",)),
 }  # fmt: skip
-GESTURES = ["rank=20", "steps=3600", "tower-steps=4500", "learning-rate=2e-3", "ema-decay=0.998",
-            "whole=true", "first-share=0.3", "losses.movement=0.05"]  # fmt: skip
+GESTURES = ["rank=20", "steps=3600", "tower-steps=4500", "learning-rate=2e-3", *WHOLE]
 LEAST_CLIPS = 2  # of an action, to be learned
 TEXT_SHARE = 0.1  # least of a text tower's steps: with fewer no style has a place of its own
 LICENCE = "CC BY-NC 4.0 (learned from the Bandai-Namco Research Motiondataset: non-commercial)"
