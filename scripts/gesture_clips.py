@@ -863,6 +863,21 @@ def crouch(scene: Scene) -> Body:
     return body
 
 
+def kneel(scene: Scene) -> Body:
+    """On the right knee, the trunk upright, the left hand on the raised knee."""
+    body, one = scene.standing(width=0.20), np.ones_like(scene.t)
+    body.position[:, 1] = 0.51
+    body.ball[:, LEFT, 2] += 0.44
+    body.ball[:, RIGHT, 2] -= 0.42
+    body.foot_pitch[:, RIGHT] -= 1.1
+    breath = np.sin(2 * np.pi * scene.t / 3.2)
+    lean(body, 8 + 0.8 * breath)
+    nod_by(body, 4)
+    hand(body, LEFT, one, (-0.02, -0.38, 0.36), elbow=(0.7, -0.7, 0.2))
+    hand(body, RIGHT, one, (0.02, -0.50, 0.10), elbow=(0.6, -0.6, -0.4))
+    return body
+
+
 def face_down(body: Body, height: Array | float, tilt: float) -> None:
     """The trunk level, face down, the gaze a little ahead."""
     body.position[:, 1] = height
@@ -1122,6 +1137,7 @@ ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     "jumping-jacks": (jumping_jacks, 2.6, 5.0, ({},)),
     "laugh": (laugh, 2.8, 5.0, ({},)),
     "lie-down": (lie_down, 3.1, 5.0, ({},)),
+    "kneel": (kneel, 2.4, 5.0, ({},)),
     "listen": (listen, 2.4, 5.0, ({},)),
     "nod": (nod, 2.0, 4.5, ({},)),
     "open-door": (open_door, 3.5, 5.0, ({},)),
