@@ -561,6 +561,24 @@ def aim_gun(scene: Scene) -> Body:
     return body
 
 
+def archery(scene: Scene) -> Body:
+    """Side on, the bow at the end of the left arm; the right hand draws to the chin and lets go, as
+    often as fits in."""
+    body, up = scene.standing(width=0.3), held(scene, 0.6)
+    phase, number = beats(scene, 2.2, 0.55)
+    at = phase % 1.0 * (phase < number)
+    drawn = up * min_jerk(at / 0.5) * (1 - min_jerk((at - 0.82) / 0.14))
+    after = up * np.clip(1 - np.abs(at - 0.80) / 0.05, 0, 1)  # it flies back
+    stance(scene, body, LEFT, 0.22)
+    lean(body, turn=-58 * up)
+    hand(body, LEFT, up, (0.44, 0.08, 0.30), elbow=(0.5, -1, 0.0), pronate=0)
+    hand(body, RIGHT, up, (-0.36, 0.0, 0.34), elbow=(0.6, -0.9, 0.2), pronate=0)
+    hand(body, RIGHT, drawn, (-0.06, 0.08, 0.20), elbow=(1.0, 0.1, -0.3), pronate=0)
+    hand(body, RIGHT, after, (0.06, 0.10, 0.12), elbow=(1.0, 0.1, -0.5), pronate=0)
+    nod_by(body, turn=50 * up)
+    return body
+
+
 def drink(scene: Scene) -> Body:
     """A glass to the mouth, the head back, and down again; in a long clip twice."""
     body, up = scene.standing(), held(scene, 0.55)
@@ -1108,6 +1126,7 @@ DODGES: tuple[Labels, ...] = ({}, {"direction": "left"}, {"direction": "right"})
 ACTIONS: dict[str, tuple[Maker, float, float, tuple[Labels, ...]]] = {
     # maker, shortest and longest in seconds, labels beside the action
     "aim-gun": (aim_gun, 2.8, 5.0, ({},)),
+    "archery": (archery, 3.4, 5.0, ({},)),
     "block": (block, 2.2, 4.5, ({},)),
     "blow-kiss": (blow_kiss, 2.9, 4.5, ({},)),
     "cast-spell": (cast_spell, 2.9, 4.5, ({},)),
