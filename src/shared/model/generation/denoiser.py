@@ -92,11 +92,12 @@ def _seen_by_frames(denoiser: nn.Module, name: str) -> bool:
 
 
 def vectors(denoiser: nn.Module) -> dict[str, Tensor]:
-    """The vectors that OneStep changes, by their names, in the order of its `shifts`."""
+    """The vectors that OneStep changes, by their names, in the order of its `shifts`; sharded over
+    processes a scalar is a vector, too."""
     return {
         name: weight
         for name, weight in denoiser.named_parameters()
-        if weight.ndim == 1 and not name.startswith(("null_", "one_step"))
+        if weight.ndim == 1 and not name.startswith(("null_", "one_step", "text_scale"))
     }
 
 
