@@ -569,7 +569,7 @@ def archery(scene: Scene) -> Body:
     at = phase % 1.0 * (phase < number)
     drawn = up * min_jerk(at / 0.5) * (1 - min_jerk((at - 0.82) / 0.14))
     after = up * np.clip(1 - np.abs(at - 0.80) / 0.05, 0, 1)  # it flies back
-    stance(scene, body, LEFT, 0.22)
+    stance(scene, body, RIGHT, 0.22)
     lean(body, turn=-58 * up)
     hand(body, LEFT, up, (0.44, 0.08, 0.30), elbow=(0.5, -1, 0.0), pronate=0)
     hand(body, RIGHT, up, (-0.36, 0.0, 0.34), elbow=(0.6, -0.9, 0.2), pronate=0)

@@ -34,7 +34,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 CLIPS = ROOT / "scripts" / "starter_clips.tsv"  # pieces and labels of the sources' takes
-BLOWS = ROOT / "scripts" / "blow_clips.tsv"  # one blow each, so that all fall at the same time
+BLOWS = ROOT / "scripts" / "blow_clips.tsv"  # so that blows fall at the same times
 SHIPPED = ROOT / "src" / "shared" / "pretrained"
 SYNTHETIC_CLIPS, SYNTHETIC_FREE = 3000, 4000  # before those that no gap needs are left out
 TEXT = ["batch-size=512", "learning-rate=1e-2", "ema-decay=0.99", "babble=0.3", "precision=no"]
