@@ -269,10 +269,9 @@ STAYING = [
     ("goes to a squat", "goes to a squat"),
     ("va al trote", "va al trote"),
     ("walks to the left, then waves", "walks to the left / waves"),
-    pytest.param(
-        "va a la derecha y saluda", "va a la derecha / saluda",
-        marks=pytest.mark.xfail(strict=True),
-    ),
+    ("va a la derecha y saluda", "va a la derecha / saluda"),
+    ("右に歩いて手を振る", "右に歩いて / 手を振る"),
+    ("向右走并挥手", "向右走 / 挥手"),
     ("walks to the beat", "walks to the beat"),
     ("spins and stays in place", "spins / stays in place"),
     ("a person turns 90 degrees and holds", "a person turns / stands still 2.5"),
