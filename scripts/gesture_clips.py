@@ -889,7 +889,7 @@ def kneel(scene: Scene) -> Body:
     body.ball[:, RIGHT, 2] -= 0.42
     body.foot_pitch[:, RIGHT] -= 1.1
     breath = np.sin(2 * np.pi * scene.t / 3.2)
-    lean(body, 8 + 0.8 * breath)
+    lean(body, 8 + 1.6 * breath)
     nod_by(body, 4)
     hand(body, LEFT, one, (-0.02, -0.38, 0.36), elbow=(0.7, -0.7, 0.2))
     hand(body, RIGHT, one, (0.02, -0.50, 0.10), elbow=(0.6, -0.6, -0.4))
