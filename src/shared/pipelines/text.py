@@ -249,10 +249,10 @@ class SentenceGenerator:
 
     def _steady(self, text: str, *, alone: bool = True) -> tuple[int, ...]:
         """The columns of the root row that have no mean in a text's motion: who does not leave his
-        place ends where he began, unless something comes before; whose arms move faces one way."""
-        if alone and self.scope is not None and self._nearest(text) in self.scope.still:
-            return FORWARD, LATERAL, YAW_RATE
-        return (YAW_RATE,) if self._by_arms(text) else ()
+        place faces one way, and ends where he began, unless something comes before."""
+        if self.scope is None or self._nearest(text) not in self.scope.still:
+            return (YAW_RATE,) if self._by_arms(text) else ()
+        return (FORWARD, LATERAL, YAW_RATE) if alone else (YAW_RATE,)
 
     def _rested(self, motion: Motion, *texts: str, held: bool = False) -> Motion:
         """The motion from hanging arms to hanging arms, if one of the texts asks for a gesture, its

@@ -375,8 +375,8 @@ export class Director {
 
   /** The columns of the root row that have no mean in a text's motion. */
   steady(text, alone = true) {
-    if (alone && this.scope.meta.still?.includes(this.nearest(text))) return [FORWARD, LATERAL, YAW_RATE];
-    return this.byArms(text) ? [YAW_RATE] : [];
+    if (!this.scope.meta.still?.includes(this.nearest(text))) return this.byArms(text) ? [YAW_RATE] : [];
+    return alone ? [FORWARD, LATERAL, YAW_RATE] : [YAW_RATE];
   }
 
   rested(motion, texts, held = false) {

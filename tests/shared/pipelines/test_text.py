@@ -307,18 +307,30 @@ def test_a_loop_of_a_stand_neither_creeps_nor_turns(starter: TextToMotion):
     assert made.warning is None
 
 
-def test_who_sits_does_not_glide(starter: TextToMotion):
-    assert starter.scope is not None and "meditate" in starter.scope.still
-    prompts, lengths = ["she meditates", "she meditates"], [4.0, 9.0]  # one and two windows
+def test_who_stays_in_place_does_not_glide(starter: TextToMotion):
+    assert starter.scope is not None and {"meditate", "clap"} <= {*starter.scope.still}
 
-    def travelled() -> list[float]:
-        made = SentenceGenerator(starter).generate(prompts, seconds=lengths)
+    def travelled(*prompts: str) -> list[float]:
+        texts, lengths = [*prompts, *prompts], [4.0] * len(prompts) + [9.0] * len(prompts)
+        made = SentenceGenerator(starter).generate(texts, seconds=lengths)  # one and two windows
         ends = [motion.root_position[[0, -1]][:, [0, 2]] for motion in made]
         return [float(np.linalg.norm(last - first)) for first, last in ends]
 
-    assert max(travelled()) < 0.03
+    assert max(travelled("she meditates", "she claps")) < 0.03
     starter.scope = replace(starter.scope, still=())
-    assert max(travelled()) > 0.05  # what the network itself does
+    assert min(travelled("she claps")) > 0.1
+
+
+@pytest.mark.parametrize("text", ["sits down on a chair", "椅子に座って", "kneels down"])
+def test_who_sat_down_faces_one_way(starter: TextToMotion, text: str):
+    for seed in range(3):
+        (motion,) = SentenceGenerator(starter).generate([text], seconds=[4.0], seed=seed)
+        across = (
+            motion.positions()[:, JOINT_INDEX["l_hip"]]
+            - motion.positions()[:, JOINT_INDEX["r_hip"]]
+        )
+        heading = np.unwrap(np.arctan2(across[:, 0], across[:, 2]))
+        assert abs(np.degrees(heading[-1] - heading[0])) < 10
 
 
 @pytest.mark.parametrize("text", ["a guard turns his head to the left", "他向左转头"])
