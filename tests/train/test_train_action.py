@@ -267,6 +267,11 @@ def test_every_other_clip_that_is_noise_alone_takes_the_learned_step(model: Path
     assert (slow - fast).abs().max() > 1e-3
     torch.testing.assert_close(shown[0], fast[0])
     torch.testing.assert_close(shown[1:], slow[1:])
+    denoiser.text_scale = torch.nn.Parameter(denoiser.text_scale.detach()[None])  # as FSDP has it
+    assert denoiser.one_step is not None
+    changed = denoiser.one_step.weights(denoiser)
+    kept = {name for name in changed if name != "text_scale"}
+    assert kept == changed.keys()
 
 
 def test_a_style_is_learned_better_where_nothing_else_comes_out(

@@ -164,7 +164,8 @@ class TextTower(nn.Module):
             return pooled
         places = self.get_buffer("places").float()
         shares = (PLACE_SCALE * pooled @ self.place_keys().T).softmax(-1)  # [B, P]
-        alike = (places @ places.T >= ALIKE).to(shares)  # half a run and half a bow is neither
+        with torch.autocast(places.device.type, enabled=False):  # bf16 takes others for alike
+            alike = (places @ places.T >= ALIKE).to(shares)  # half a run and half a bow is neither
         likeliest = (shares @ alike + OWN_SHARE * shares).argmax(-1)
         return normalize((shares * alike[likeliest]) @ places, dim=-1)
 
