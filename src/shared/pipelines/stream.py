@@ -11,7 +11,7 @@ Letters: T frames, R rows (bones, root track), C channels, O frames that neighbo
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -23,9 +23,9 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..model.noise import derived_seed, retry_seeds
-from ..motion.features import Place, decode_features
+from ..motion.features import ROOT_ROW, Place, decode_features
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import blend_boundaries
+from ..motion.postprocess.stitching import blend_boundaries, bridge, leaps, posture
 from ..motion.postprocess.streaming import StreamingPostProcessor
 from ..motion.skeleton import JOINT_INDEX
 from ..tensors import Tensor, torch
@@ -59,6 +59,7 @@ class Passage:
     tag: str | None = None
     window: int | None = None
     miss: Miss | None = None
+    timed: bool = False
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -74,6 +75,7 @@ def stream_features(
     window: int = WINDOW,
     overlap: int = OVERLAP,
     ahead: int = 0,
+    bridged: bool = False,
 ) -> Iterator[Tensor]:
     """Raw features [t, R, 6] in pieces that follow each other and never change again.
 
@@ -90,6 +92,8 @@ def stream_features(
         ahead: frames made beyond a passage: the next one begins with them if it has the same text;
             else they are dropped. A text that goes on has all that its window holds. Not for
             passages with a constraint or a `miss`.
+        bridged: where a text begins in another posture than the one before ended in, the way there
+            is shown first: a piece beyond the passage's frames, which a constraint does not count.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
@@ -99,12 +103,12 @@ def stream_features(
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
     before = spare = torch.zeros(0, generator.network.motion_rows, 6)
     shows: tuple[str, str | None] | None = None  # the spare frames
-    made, number, said = 0, 0, ""
+    made, number, said, fps = 0, 0, "", generator.card.fps
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
         (features,) = generator.sample_features(
             [passage.text],
-            seconds=max(len(known), SHORTEST) / generator.card.fps,
+            seconds=max(len(known), SHORTEST) / fps,
             tags=[passage.tag],
             seed=seed,
             steps=sampling.steps,
@@ -113,6 +117,30 @@ def stream_features(
             constraints=[lengthened(known, SHORTEST)],
         )
         return blend_boundaries(features[: len(known)], known.known)
+
+    def seeds() -> Iterator[int]:
+        return retry_seeds(derived_seed(sampling.seed, number))
+
+    def tried(
+        passage: Passage, frames: int, seed: int, shared: Tensor, *, alone: bool = False
+    ) -> Tensor:
+        given = None if constraint is None else constraint(made - len(shared), made + frames)
+        known = carried_on(shared, given, len(shared) + frames)
+        piece = sampled(passage, known, seed)[len(shared) :]
+        if alone or len(shared) or not len(before) or (bridged and is_apart(before, piece)):
+            return piece
+        return met(before, piece, known.known)
+
+    def leapt(passage: Passage, frames: int, seed: int) -> bool:
+        """Whether what goes on from before leaps, as it does not where it comes first, and where
+        no pose is known of it."""
+        given = None if constraint is None else constraint(made, made + frames)
+        if given is not None and bool(given.known[:, :ROOT_ROW].any()):
+            return False
+        if not leaps(before[-1], tried(passage, frames, seed, before), fps):
+            return False
+        piece = tried(passage, frames, seed, before[:0], alone=True)
+        return is_apart(before, piece) or not leaps(piece[0], piece, fps)
 
     for passage in passages:
         own = before[:0]  # what there is of the passage
@@ -125,26 +153,70 @@ def stream_features(
         lucky: list[int] = []  # the seed of the repetition before
         widest = min(window, passage.window or window)
         new, said = passage.text != said, passage.text
-        apart = new and stands(before, generator.card.fps) and generator.begins_standing(said)
-        shared = before[:0] if apart else before
+        apart = new and stands(before, fps) and generator.begins_standing(said)
         beyond = ahead if constraint is None and passage.miss is None else 0
+        if bridged and new and len(before) and not apart:
+            length, *_ = window_lengths(passage.frames, len(before), widest, overlap)
+            apart = leapt(passage, length + beyond, next(seeds()))
+        shared = before[:0] if apart else before
         if beyond and not new:
             beyond = max(beyond, widest - len(shared) - passage.frames)
         for length in window_lengths(passage.frames, len(shared), widest, overlap):
-            start = made - len(shared)
-            given = None if constraint is None else constraint(start, made + length)
-            known = carried_on(shared, given, len(shared) + length + beyond)
-            seeds = [*lucky, *retry_seeds(derived_seed(sampling.seed, number))]
-            tries = (sampled(passage, known, seed)[len(shared) :] for seed in seeds)
-            if not len(shared) and len(before):
-                tries = (met(before, piece, known.known) for piece in tries)
+            noises = [*lucky, *seeds()]
+            tries = (tried(passage, length + beyond, seed, shared) for seed in noises)
             piece, best = nearest_to_wanted(tries, own, passage.miss)
-            lucky = [seeds[best]] if passage.window else []
+            lucky = [noises[best]] if passage.window else []
+            if bridged and not len(shared) and len(before) and is_apart(before, piece):
+                way = bridge(before, piece, fps)
+                if passage.timed:  # a part of what the passage has
+                    cut = min(len(way), length // 2)
+                    piece, length, made = piece[cut:], length - cut, made + cut
+                    way = bridge(before, piece, fps, cut)
+                before = torch.cat((before, way))
+                yield way
             piece, spare, shows = piece[:length], piece[length:], (passage.text, passage.tag)
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
             made, number, shared = made + length, number + 1, before
             yield piece
+
+
+def spanned_features(
+    generator: TextToMotion,
+    passages: Sequence[Passage],
+    sampling: Sampling = DEFAULT_SAMPLING,
+    *,
+    constraint: ConstraintOf | None = None,
+    window: int = WINDOW,
+    overlap: int = OVERLAP,
+) -> tuple[Tensor, list[tuple[int, int]]]:
+    """Raw features [T, R, 6] of passages with the ways between them, and from where to where each
+    passage goes; see `stream_features`."""
+    pieces, begun = list[Tensor](), list[int]()
+
+    def asked() -> Iterator[Passage]:
+        for passage in passages:
+            begun.append(sum(map(len, pieces)))
+            yield passage
+
+    for piece in stream_features(
+        generator,
+        asked(),
+        sampling,
+        constraint=constraint,
+        window=window,
+        overlap=overlap,
+        bridged=True,
+    ):
+        pieces.append(piece)  # as it comes: `asked` counts them
+    features = torch.cat(pieces)
+    stops = [*begun[1:], len(features)]
+    return features, [(s - p.frames, s) for p, s in zip(passages, stops, strict=True)]
+
+
+def is_apart(before: Tensor, piece: Tensor) -> bool:
+    """Whether a piece [t, R, 6] begins in another posture than the frames before it end in."""
+    return posture(before[-1]) != posture(piece[0])
 
 
 def stands(before: Tensor, fps: float) -> bool:
@@ -315,6 +387,7 @@ class MotionStream:
             window=window,
             overlap=overlap,
             ahead=round(ahead * self._fps),
+            bridged=constraint is None,
         )
         self._texts: list[tuple[int, str]] = []  # first frames of passages
         self._made, self._shown, self._window = 0, 0, window - overlap

@@ -58,7 +58,7 @@ from .path import (
     turned,
 )  # fmt: skip
 from .sentence import GOING, LOW, Clause, Reading, clauses, whole
-from .stream import OVERLAP, WINDOW, Miss, Passage, stream_features
+from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
 
@@ -458,7 +458,7 @@ class SentenceGenerator:
                 led |= lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
-        pieces = stream_features(
+        features, spans = spanned_features(
             self.generator,
             [passage for passage, _ in stretches],
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
@@ -466,23 +466,23 @@ class SentenceGenerator:
             overlap=REPEATED_OVERLAP if any(part.count > 1 for part in parts) else OVERLAP,
             sampling=sampling,
         )
-        features = torch.cat(list(pieces))
-        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
+        for (start, stop), part in zip(spans, parts, strict=True):
             if part.meanwhile:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
                 rest = all_but(features, start, stop, joints)
                 features = fill_free(self.generator, part.meanwhile, rest, sampling)
-        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
-            if part.degrees is None and part.metres is None:
-                columns = self._steady(part.text, alone=len(parts) == 1)
-                features[start:stop] = without_drift(features[start:stop], columns)
-        spans = zip(starts, starts[1:], map(self._pace, parts), strict=False)
-        shown = [hastened(features[start:stop], pace) for start, stop, pace in spans]
-        features, starts = torch.cat(shown), [0, *accumulate(map(len, shown))]
+        shown, end = list[Tensor](), 0
+        for (start, stop), part in zip(spans, parts, strict=True):
+            does, free = features[start:stop], part.degrees is None and part.metres is None
+            steady = self._steady(part.text, alone=len(parts) == 1) if free else ()
+            does = hastened(without_drift(does, steady), self._pace(part))
+            shown, end = [*shown, features[end:start], does], stop
+        ends = [*accumulate(map(len, shown))]
+        features, spans = torch.cat(shown), [*zip(ends[::2], ends[1::2], strict=True)]
         features = add_parts(self.generator, features, limbs, sampling)
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
-        for start, stop, part in zip(starts, starts[1:], parts, strict=False):
+        for (start, stop), part in zip(spans, parts, strict=True):
             action = self._nearest(part.text)
             if action == "clap" and not (part.meanwhile or limbs):
                 motion = hands_meet(motion, start, stop)
@@ -507,14 +507,14 @@ class SentenceGenerator:
     ) -> tuple[Passage, Constraint | None]:
         """What one clause becomes, and what is known of its frames; they are `exactly` so many."""
         fps = self.card.fps
-        if exactly is not None:
+        if timed := exactly is not None:
             clause = replace(clause, seconds=exactly / fps)
         steps = self._nearest(clause.text) in STEPPING and clause.seconds is None and clause.steps
         if steps:
             gait = self._gait(clause.text, sampling, tag)
             clause = replace(clause, seconds=time_of_steps(steps, gait.speed))
         seconds, given, pace = clause.seconds or seconds, None, self._pace(clause)
-        passage = Passage(clause.text, max(1, round(seconds * fps)) * pace, tag)
+        passage = Passage(clause.text, max(1, round(seconds * fps)) * pace, tag, timed=timed)
         seconds, exactly = seconds * pace, exactly and exactly * pace
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames
@@ -522,7 +522,7 @@ class SentenceGenerator:
         if self._turns(clause):
             given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
-            given = self._led(passage, clause, sampling, timed=exactly is not None)
+            given = self._led(passage, clause, sampling, timed=timed)
         elif clause.count > 1:
             once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
             frames = once * clause.count

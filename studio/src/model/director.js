@@ -10,7 +10,7 @@ import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } f
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
-import { freeConstraint, MotionStream, OVERLAP, retrySeeds, streamFeatures, TRIES, WINDOW } from "./stream.js";
+import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
@@ -96,7 +96,10 @@ export class Director {
     for (const { text, frames } of this.passages(blocks)) {
       const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length), least = own.length * SHORTEST;
       if (own.length > 1 && frames < least * FPS) throw new Error(`“${text}” asks for ${own.length} things in ${(frames / FPS).toFixed(1)} seconds; give it ${least.toFixed(1)} or more.`);
-      for (const [i, part] of own.entries()) stretches.push(await this.stretch(part, frames / FPS, seed, stop(i + 1) - stop(i)));
+      for (const [i, part] of own.entries()) {
+        const { passage, given } = await this.stretch(part, frames / FPS, seed, stop(i + 1) - stop(i));
+        stretches.push({ passage: { ...passage, timed: true }, given });
+      }
       parts.push(...own);
     }
     return this.performed(parts, stretches, blocks.map(({ text }) => text).join(", then "), seed, options);
@@ -180,7 +183,7 @@ export class Director {
     }
     const down = await this.ledDown(given, parts, starts, seed);
     if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
-    let features = await streamFeatures(this.sampler, passages, seed, {
+    let { features, spans } = await spannedFeatures(this.sampler, passages, seed, {
       ...options,
       constraint: led || down ? given : null,
       window: this.window(),
@@ -189,24 +192,27 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.meanwhile) {
         const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
-        const rest = allBut(features, starts[i], starts[i] + passages[i].frames, joints);
-        features = await fillFree(this.sampler, part.meanwhile, rest, seed);
+        features = await fillFree(this.sampler, part.meanwhile, allBut(features, ...spans[i], joints), seed);
       }
-    for (const [i, part] of parts.entries())
-      if (part.degrees === null && part.metres === null)
-        removeDrift(features, this.steady(part.text, parts.length === 1), starts[i], starts[i] + passages[i].frames);
-    const paces = parts.map((part) => this.pace(part)), lengths = passages.map(({ frames }, i) => Math.ceil(frames / paces[i]));
-    const spans = parts.map((_, i) => hastened(cut(features, starts[i], starts[i] + passages[i].frames), paces[i]));
-    if (Math.max(...paces) > 1) features = joinArrays(spans);
-    const shown = lengths.map((_, i) => lengths.slice(0, i).reduce((sum, frames) => sum + frames, 0));
-    const motion = postProcess(features, this.settings.post, { text });
+    const shown = [], joined = () => shown.reduce((sum, piece) => sum + framesOf(piece), 0);
+    let end = 0;
+    spans = parts.map((part, i) => {
+      const [start, stop] = spans[i], does = cut(features, start, stop);
+      if (part.degrees === null && part.metres === null) removeDrift(does, this.steady(part.text, parts.length === 1));
+      shown.push(cut(features, end, start));
+      end = stop;
+      const first = joined();
+      shown.push(hastened(does, this.pace(part)));
+      return [first, joined()];
+    });
+    const motion = postProcess(joinArrays(shown), this.settings.post, { text });
     let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
-    for (const [i, { count, text }] of parts.entries())
-      if (this.nearest(text) === "clap" && !parts[i].meanwhile) rested = handsMeet(rested, shown[i], shown[i] + lengths[i]);
-      else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS)) {
-        const joins = Array.from({ length: count - 1 }, (_, k) => Math.floor((lengths[i] * (k + 1)) / count));
-        rested = restToRest(rested, joins.map((at) => shown[i] + at));
-      }
+    for (const [i, { count, text, meanwhile }] of parts.entries()) {
+      const [start, stop] = spans[i];
+      if (this.nearest(text) === "clap" && !meanwhile) rested = handsMeet(rested, start, stop);
+      else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS))
+        rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => start + Math.floor(((stop - start) * (k + 1)) / count)));
+    }
     return { ...rested, text };
   }
 

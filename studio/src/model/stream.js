@@ -1,7 +1,8 @@
 // Motion of any length: windows that begin with the last frames before them
 // (src/shared/pipelines/stream.py).
 
-import { cut, decodeFeatures, framesOf, joinArrays, WIDTH } from "../body/features.js";
+import { bridge, isApart, leaps } from "../body/bridge.js";
+import { cut, decodeFeatures, framesOf, joinArrays, ROOT, WIDTH } from "../body/features.js";
 import { StreamingPostProcessor } from "../body/streaming.js";
 import { endsAtRest } from "../body/measurements.js";
 import { INDEX, pose } from "../body/skeleton.js";
@@ -72,22 +73,60 @@ export async function streamFeatures(...all) {
   return joinArrays(pieces);
 }
 
+/** The same with the ways between them, and from where to where each passage goes. */
+export async function spannedFeatures(sampler, passages, seed, options) {
+  const pieces = [], begun = [], sum = () => pieces.reduce((total, piece) => total + framesOf(piece), 0);
+  function* asked() {
+    for (const passage of passages) {
+      begun.push(sum());
+      yield passage;
+    }
+  }
+  for await (const piece of featurePieces(sampler, asked(), seed, { ...options, bridged: true })) pieces.push(piece);
+  const stops = [...begun.slice(1), sum()];
+  return { features: joinArrays(pieces), spans: passages.map(({ frames }, i) => [stops[i] - frames, stops[i]]) };
+}
+
 /**
- * Raw features of passages { text, frames, window?, miss?, afresh? } in pieces that never change again.
+ * Raw features of passages { text, frames, window?, miss?, afresh?, timed? } in pieces that never change again.
  * @param {Sampler} sampler
  * @param {Iterable<object>} passages taken one by one, each when the motion before it is made; one of one window that is `gone()` meanwhile was none
  * @param {bigint|number} seed
- * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, guidance?: number, told?: function}} options
- *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops, all that a window holds of a text that goes on; told: called with the frames that are done
+ * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, bridged?: boolean, guidance?: number, told?: function}} options
+ *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops, all that a window holds of a text that goes on; bridged: the way to another posture is shown first, beyond a passage's frames if it is not timed; told: called with the frames that are done
  */
 async function* featurePieces(sampler, passages, seed, options = {}) {
-  const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, guidance, told } = options;
+  const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, bridged = false, guidance, told } = options;
   let before = new Float32Array(), spare = before, made = 0, number = 0, said = null;
   const goOn = (piece) => {
     before = cut(joinArrays([before, piece]), -overlap);
     made += framesOf(piece);
     told?.(made);
     return piece;
+  };
+  const seeds = () => retrySeeds(derivedSeed(seed, number));
+  /** A window that goes on from `shared` frames; null where nobody asks for it any more. */
+  const tried = async (passage, frames, trial, shared, alone = false) => {
+    const kept = framesOf(shared);
+    const known = constraint ? windowOf(constraint, made - kept, made + frames) : freeConstraint(kept + frames);
+    known.values.set(shared);
+    known.known.fill(1, 0, shared.length);
+    known.shown.fill(1, 0, shared.length);
+    const longer = lengthened(known, SHORTEST);
+    const given = kept > 0 || constraint ? longer : null;
+    const features = await sampler.sample(passage.text, framesOf(longer.values), trial, given, { guidance, gone: passage.gone });
+    if (!features) return null;
+    const piece = cut(blendBoundaries(cut(features, 0, kept + frames), known.known), kept);
+    if (alone || kept || !before.length || (bridged && isApart(before, piece))) return piece;
+    return met(before, piece, known.known);
+  };
+  /** Whether what goes on from before leaps, as it does not where it comes first, and where no pose is known of it; null as above. */
+  const leapt = async (passage, frames) => {
+    if (constraint?.known.slice(made * WIDTH, (made + frames) * WIDTH).some((known, i) => known && i % WIDTH < ROOT)) return false;
+    const [trial] = seeds(), joined = await tried(passage, frames, trial, before);
+    if (!joined || !leaps(before, joined)) return joined && false;
+    const piece = await tried(passage, frames, trial, new Float32Array(), true);
+    return piece && (isApart(before, piece) || !leaps(cut(piece, 0, 1), piece));
   };
   next: for (const passage of passages) {
     if (passage.text === said && framesOf(spare) >= passage.frames) {
@@ -96,29 +135,38 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
       yield goOn(piece);
       continue;
     }
-    const earlier = said, fresh = passage.text !== said;
+    const earlier = said, fresh = passage.text !== said, widest = Math.min(window, passage.window ?? window);
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
-    let shared = passage.afresh && fresh && stands(before) ? new Float32Array() : before;
+    let apart = passage.afresh && fresh && stands(before);
     let beyond = constraint || passage.miss ? 0 : ahead;
+    if (bridged && fresh && before.length && !apart) {
+      const [length] = windowLengths(passage.frames, framesOf(before), widest, overlap);
+      apart = await leapt(passage, length + beyond);
+      if (apart === null) continue;
+    }
+    let shared = apart ? new Float32Array() : before;
     if (beyond && !fresh) beyond = Math.max(beyond, window - framesOf(shared) - passage.frames);
     said = passage.text;
-    for (const length of windowLengths(passage.frames, framesOf(shared), Math.min(window, passage.window ?? window), overlap)) {
-      const kept = framesOf(shared), start = made - kept;
-      const known = constraint ? windowOf(constraint, start, made + length) : freeConstraint(kept + length + beyond);
-      known.values.set(shared);
-      known.known.fill(1, 0, shared.length);
-      known.shown.fill(1, 0, shared.length);
-      const longer = lengthened(known, SHORTEST), frames = framesOf(known.values);
-      const somethingKnown = kept > 0 || constraint;
+    for (let length of windowLengths(passage.frames, framesOf(shared), widest, overlap)) {
       let best = null, least = Infinity, chosen = null;
-      for (const trial of [...lucky, ...retrySeeds(derivedSeed(seed, number))]) {
-        const features = await sampler.sample(passage.text, framesOf(longer.values), trial, somethingKnown ? longer : null, { guidance, gone: passage.gone });
-        if (!features) { said = earlier; continue next; }
-        let piece = cut(blendBoundaries(cut(features, 0, frames), known.known), kept);
-        if (!kept && before.length) piece = met(before, piece, known.known);
+      for (const trial of [...lucky, ...seeds()]) {
+        const piece = await tried(passage, length + beyond, trial, shared);
+        if (!piece) { said = earlier; continue next; }
         const found = passage.miss ? passage.miss(joinArrays([own, piece])) : 0;
         if (found < least) { least = found; best = piece; chosen = trial; }
         if (least <= 0) break;
+      }
+      if (bridged && !shared.length && before.length && isApart(before, best)) {
+        let way = bridge(before, best);
+        if (passage.timed) { // a part of what the passage has
+          const first = Math.min(framesOf(way), Math.floor(length / 2));
+          best = cut(best, first);
+          length -= first;
+          made += first;
+          way = bridge(before, best, first);
+        }
+        before = joinArrays([before, way]);
+        yield way;
       }
       spare = cut(best, length);
       best = goOn(cut(best, 0, length));
@@ -141,7 +189,7 @@ export class MotionStream {
   constructor(sampler, post, afresh, seed) {
     this.afresh = afresh;
     this.processor = new StreamingPostProcessor(post);
-    this.pieces = featurePieces(sampler, this.passages(), seed, { ahead: AHEAD });
+    this.pieces = featurePieces(sampler, this.passages(), seed, { ahead: AHEAD, bridged: true });
   }
 
   *passages() {

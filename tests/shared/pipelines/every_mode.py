@@ -67,7 +67,7 @@ def modes(generator: Any) -> dict[str, Callable[[], list[Any]]]:
     found = (
         lambda: make(["a person walks", "una persona salta"], seconds=[1.0, 1.5], sampling=few),
         lambda: make("a person turns 90 degrees to the left, then waves twice", sampling=few),
-        lambda: make("raises a hand, holds it up, then kneels down", seconds=2.0, sampling=few),
+        lambda: make("raises a hand, holds it up, then sleeps", seconds=2.0, sampling=few),
         lambda: make("a person walks while waving", seconds=2.0, sampling=few),
         lambda: passed("ddpm"),
         lambda: passed("dpm-solver++", 1.0),

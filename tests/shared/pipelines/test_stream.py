@@ -1,6 +1,7 @@
 """stream_features: windows of any number, each carrying the one before on."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import reduce
 from itertools import pairwise
 
@@ -16,7 +17,7 @@ from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES, retry_seeds
-from src.shared.motion.features import FORWARD, ROOT_ROW, decode_features
+from src.shared.motion.features import FORWARD, HEIGHT, ROOT_ROW, decode_features
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import StreamingPostProcessor
 from src.shared.pipelines import stream as motion_stream
@@ -24,6 +25,7 @@ from src.shared.pipelines.stream import (
     MotionStream,
     Passage,
     nearest_to_wanted,
+    spanned_features,
     stream_features,
     window_lengths,
 )
@@ -221,6 +223,30 @@ def test_what_a_standing_body_begins_is_as_it_is_alone(monkeypatch: pytest.Monke
         assert sum(measured(made(*bow_and_kick)[1]).kicks) == 0
     [walk] = stream_features(starter, [Passage("a person walks forward", 60)])
     assert motion_stream.stands(clap, 30.0) and not motion_stream.stands(walk, 30.0)
+
+
+def test_who_is_down_gets_up_before_he_goes_on() -> None:
+    """Lying bodies stood in a third of a second; now there is a way, which the frames of a passage
+    hold where its times are told."""
+    starter = TextToMotion.from_pretrained("starter", device="cpu", runtime="onnx")
+    lies = Passage("a person lies down on the floor", 120)
+    throws = Passage("a person throws a ball", 90)
+
+    def fastest(features: torch.Tensor) -> float:
+        height = features[:, ROOT_ROW, HEIGHT].numpy()
+        return float(np.abs(height[15:] - height[:-15]).max()) * 2  # metres a second
+
+    assert fastest(torch.cat(list(stream_features(starter, [lies, throws])))) > 1.4
+    features, spans = spanned_features(starter, [lies, throws])
+    assert spans == [(0, 120), (186, 276)] and len(features) == 276
+    assert fastest(features) < 1.2
+    features, spans = spanned_features(starter, [lies, replace(throws, timed=True)])
+    assert spans == [(0, 120), (120, 210)] and len(features) == 210
+    assert fastest(features) < 1.4
+    stream = MotionStream(starter, [lies, throws])
+    assert sum(piece.num_frames for piece in stream) == 276
+    walks = [Passage("a person walks forward", 90), Passage("a person waves", 90)]
+    assert spanned_features(starter, walks)[1] == [(0, 90), (90, 180)]  # nothing leaps
 
 
 def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotion) -> None:

@@ -26,9 +26,12 @@ from tests.shared.studio.driving import (
 )
 
 WALKS, WAVES = "a person walks forward", "una persona saluda con la mano"
+SLEEPS = "a person sleeps"
 
 
-LIVE = [WALKS] * 3 + [WAVES] * 3 + ["a person stands"] * 4 + [WAVES] * 3 + [WALKS] * 3  # one a pull
+LIVE = (
+    [WALKS] * 3 + [WAVES] * 3 + ["a person stands"] * 4 + [WAVES] * 3 + [SLEEPS] * 3 + [WALKS] * 3
+)
 
 
 @BROWSER

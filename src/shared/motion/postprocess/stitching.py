@@ -1,31 +1,47 @@
-"""Stitching: where a body stands, motions one after the other, seams without a jump.
+"""Stitching: where a body stands, motions one after the other, seams without a jump, and the way
+from one posture to another that lies too far away for a seam.
 
 Runs on the CPU in float64.
 
 Letters: T frames, R rows (bones, root track), C channels, N columns (one channel of one row).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from ...tensors import Tensor, torch
-from ..features import LEFT_CONTACT, ROOT_ROW, Place, headings
+from ..features import (
+    FORWARD,
+    HEIGHT,
+    LATERAL,
+    LEFT_CONTACT,
+    ROOT_ROW,
+    YAW_RATE,
+    Place,
+    heading_joints,
+    headings,
+)
 from ..filters import smoothed
 from ..motion import Motion
 from ..rotations import (
     matrix_to_quaternion,
     matrix_to_rotation_6d,
+    quaternion_conjugate,
     quaternion_continuous,
     quaternion_exp,
     quaternion_log,
     quaternion_multiply,
     quaternion_to_matrix,
     rotation_6d_to_matrix,
+    rotation_6d_to_quaternion,
     turn_about_y,
     yaw_quaternion,
 )
+from ..skeleton import JOINT_INDEX, JOINT_NAMES, NUM_JOINTS, REST_PELVIS_HEIGHT
 
 FADE = 10  # frames until a correction at a border has faded out
 BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, of where it is made
@@ -146,3 +162,150 @@ def _weights(frames: int, reach: int) -> np.ndarray:
     """[frames] from 1 to 0 over `reach` frames; first and second derivative vanish at both ends."""
     x = np.clip(np.arange(frames) / reach, 0, 1)
     return np.asarray(1 - x**3 * (x * (6 * x - 15) + 10))
+
+
+# ---------------------------------------------------------------- from posture to posture
+
+LEAP_SECONDS, LEAP_HEIGHT, LEAP_TILT = (
+    0.5,
+    0.3,
+    0.64,
+)  # in which who leaps goes up or down, or tilts
+UPRIGHT = 0.5  # cosine: a pelvis that is tilted by more lies
+LOW, SEAT = 0.75, 0.35  # of a standing pelvis' height: who is lower crouches, or sits on the floor
+IN_THE_AIR = 0.3  # metres above the floor of the lowest joint
+EDGE, STEP = 1.0, 0.6  # seconds from one pose to the next, and until the one after that begins
+WHOLE = 10_000  # frames: more than any way has
+STOPPING = 0.1  # seconds in which what moved comes to rest
+SHARP = 60.0  # 1/m, of the soft minimum of how far joints are above the floor
+FLOORED = 0.2, 0.4  # metres: a pelvis that is lower rests on the floor, on the feet if it is higher
+CLEAR = {"ankle": 0.08, "foot": 0.02, "wrist": 0.03, "elbow": 0.04, "knee": 0.05, "pelvis": 0.09}
+
+Pose = dict[str, tuple[float, float, float]]  # rotation vectors in degrees; the right side mirrors
+POSES: dict[str, Pose] = {
+    "standing": {
+        "hip": (-6, 4, 0), "knee": (19, 0, 0), "ankle": (-13, 2, 0), "shoulder": (7, -10, -72),
+        "elbow": (6, -28, 1),
+    },
+    "crouched": {
+        "pelvis": (25, 0, 0), "hip": (-118, 17, 10), "knee": (138, 0, 0), "ankle": (-16, -4, 5),
+        "foot": (-29, 0, 0), "spine1": (11, 0, 0), "spine2": (13, 0, 0), "spine3": (13, 0, 0),
+        "neck": (-20, 0, 0), "head": (-20, 0, 0), "shoulder": (0, -40, -62), "elbow": (6, -20, 3),
+    },
+    "seated": {
+        "pelvis": (-12, 0, 0), "hip": (-140, 1, 1), "spine1": (7, 0, 0), "knee": (120, 0, 0),
+        "spine2": (8, 0, 0), "ankle": (33, 5, 2), "spine3": (8, 0, 0), "neck": (-3, 0, 0),
+        "head": (-4, 0, 0), "shoulder": (46, 19, -69), "elbow": (6, -12, 1), "wrist": (5, -3, 60),
+    },
+}  # fmt: skip
+WAYS: dict[str, tuple[str, ...]] = {
+    "crouched": (),
+    "standing": ("crouched",),
+    "seated": ("crouched",),
+    "prone": ("crouched",),
+    "lying": ("seated", "crouched"),
+    "airborne": ("standing", "crouched"),
+}  # from each posture to where all ways meet
+
+
+def leaps(pose: Tensor, piece: Tensor, fps: float) -> bool:
+    """Whether a piece [T,R,6] that begins after a pose [R,6] is soon far higher or lower, or tilted
+    otherwise, than a body gets in that time."""
+    if pose.shape[0] <= ROOT_ROW:
+        return False
+    soon = torch.cat((pose[None], piece[: round(LEAP_SECONDS * fps)]))
+    up = rotation_6d_to_matrix(soon[:, 0].double())[:, :, 1]
+    far = (soon[:, ROOT_ROW, HEIGHT] - soon[0, ROOT_ROW, HEIGHT]).abs().max()
+    return float(far) > LEAP_HEIGHT or float((up @ up[0]).min()) < LEAP_TILT
+
+
+def posture(pose: Tensor) -> str:
+    """One of `WAYS` for a pose [R,6]."""
+    return _posture(rotation_6d_to_quaternion(pose[:NUM_JOINTS].double()), _height(pose))
+
+
+def bridge(before: Tensor, after: Tensor, fps: float, longest: int | None = None) -> Tensor:
+    """Frames [t,R,6] from how a body was to how it begins: by way of the postures between (who lies
+    sits up, crouches, stands), the lowest joint on the floor, the feet where they are.
+
+    Each pose is reached by its own share of a sum of rotations (Kim, Kim and Shin, A general
+    construction scheme for unit quaternion curves, SIGGRAPH 1995), so that none is stopped at.
+
+    Args:
+        before, after: raw features [T,R,6], with a root track.
+        longest: frames at most.
+    """
+    ends = [pose.double() for pose in (before[-1], after[0])]
+    first, last = (rotation_6d_to_quaternion(pose[:NUM_JOINTS]) for pose in ends)
+    keys = [first, *map(_pose, _between(*map(posture, ends))), last]
+    total = STEP * (len(keys) - 2) + EDGE
+    frames = min(round(total * fps), longest or WHOLE)
+    time = torch.arange(frames + 2, dtype=torch.float64) * total / (frames + 1)  # both ends, too
+    turned = keys[0].expand(len(time), -1, -1)
+    for number, (one, other) in enumerate(pairwise(keys)):
+        share = _eased((time - number * STEP) / EDGE)[:, None, None]
+        step = quaternion_log(quaternion_multiply(quaternion_conjugate(one), other))
+        turned = quaternion_multiply(turned, quaternion_exp(share * step))
+    local = quaternion_to_matrix(turned)
+    joints = heading_joints(local, torch.zeros_like(time))
+    floor = torch.log((SHARP * (_CLEAR - joints[..., 1])).exp().sum(1)) / SHARP  # pelvis' height
+    above = torch.stack([_height(pose) for pose in ends]) - floor[[0, -1]]
+    share = _eased(time / total)
+    above = above[0] + share * (above[1] - above[0])
+    height = floor + above
+    low, high = FLOORED
+    feet = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]].mean(1)  # T 3
+    carried = ((height - low) / (high - low)).clip(0, 1) * (1 - above / IN_THE_AIR).clip(0, 1)
+    moved = -carried[1:, None] * feet.diff(dim=0) * fps
+    made = torch.zeros(frames, before.shape[1], 6, dtype=torch.float64)
+    made[:, :NUM_JOINTS] = matrix_to_rotation_6d(local[1:-1])
+    root, fading = made[:, ROOT_ROW], torch.exp(-time[1:-1] / STOPPING)
+    root[:, FORWARD] = moved[1:, 2] + fading * ends[0][ROOT_ROW, FORWARD]
+    root[:, LATERAL] = moved[1:, 0] + fading * ends[0][ROOT_ROW, LATERAL]
+    root[:, YAW_RATE] = fading * ends[0][ROOT_ROW, YAW_RATE]
+    root[:, HEIGHT] = height[1:-1]
+    root[:, LEFT_CONTACT:] = (carried[1:-1, None] > 0).double()  # both: neither is the lower one
+    return made.to(before.dtype)
+
+
+def _posture(quaternions: Tensor, height: Tensor) -> str:
+    local = quaternion_to_matrix(quaternions)
+    up = local[0, :, 1]
+    if float(up[1]) < UPRIGHT:
+        if float(up[2]) < 0:
+            return "lying"
+        lowest = (heading_joints(local[None], height[None])[0, :, 1] - _CLEAR).min()
+        return "airborne" if float(lowest) > IN_THE_AIR else "prone"
+    share = float(height) / REST_PELVIS_HEIGHT
+    return "seated" if share < SEAT else "crouched" if share < LOW else "standing"
+
+
+def _between(start: str, stop: str) -> list[str]:
+    """The postures on the way from one to another."""
+    there, back = [start, *WAYS[start]], [stop, *WAYS[stop]]
+    met = next(name for name in there if name in back)
+    way = there[: there.index(met) + 1] + back[: back.index(met)][::-1]
+    return way[1:-1]
+
+
+def _height(pose: Tensor) -> Tensor:
+    return pose[ROOT_ROW, HEIGHT : HEIGHT + 1].double()[0]
+
+
+def _pose(name: str) -> Tensor:
+    """Quaternions [K,4] of one of `POSES`."""
+    vectors = torch.zeros(NUM_JOINTS, 3, dtype=torch.float64)
+    for joint, index in JOINT_INDEX.items():
+        x, y, z = POSES[name].get(joint.removeprefix("l_").removeprefix("r_"), (0.0, 0.0, 0.0))
+        sign = -1 if joint.startswith("r_") else 1
+        vectors[index] = torch.tensor((x, sign * y, sign * z), dtype=torch.float64)
+    return quaternion_exp(vectors * (math.pi / 180))
+
+
+def _eased(share: Tensor) -> Tensor:
+    """From 0 to 1 with minimum jerk (Flash and Hogan 1985)."""
+    x = share.clip(0, 1)
+    return x**3 * (10 + x * (6 * x - 15))
+
+
+_CLEAR = torch.tensor([CLEAR.get(name.rpartition("_")[2], 0.08) for name in JOINT_NAMES]).double()

@@ -1,15 +1,23 @@
 """No jump where known frames end, and nothing known moves; cuts are softened."""
 
 import numpy as np
+import pytest
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.motion.features import LEFT_CONTACT, ROOT_ROW
+from src.shared.motion.features import HEIGHT, LEFT_CONTACT, ROOT_ROW, decode_features
 from src.shared.motion.postprocess.stitching import (
+    EDGE,
     FADE,
+    POSES,
+    STEP,
+    WAYS,
     blend_boundaries,
     blend_cuts,
+    bridge,
+    leaps,
+    posture,
 )
 from src.shared.motion.rotations import (
     matrix_to_quaternion,
@@ -19,8 +27,28 @@ from src.shared.motion.rotations import (
     quaternion_to_matrix,
     rotation_6d_to_matrix,
 )
+from src.shared.motion.skeleton import JOINT_INDEX, JOINT_NAMES
 
 SHAPE = (23, 6)
+
+LIES = {"lying": -84.0, "prone": 76.0, "airborne": 80.0}  # degrees about the x-axis
+
+
+def still(name: str, frames: int = 3) -> torch.Tensor:
+    """A body in a posture [T,R,6]; who is prone kneels on all fours."""
+    joints = {"pelvis": (LIES[name], 0.0, 0.0)} if name in LIES else POSES[name]
+    if name == "prone":
+        joints |= {"hip": (-70.0, 0, 0), "knee": (80.0, 0, 0), "shoulder": (0, -85.0, 0)}
+    vectors = torch.zeros(22, 3)
+    for index, joint in enumerate(JOINT_NAMES):
+        x, y, z = joints.get(joint.removeprefix("l_").removeprefix("r_"), (0, 0, 0))
+        sign = -1 if joint.startswith("r_") else 1
+        vectors[index] = torch.tensor((x, sign * y, sign * z)) * np.pi / 180
+    pose = torch.zeros(23, 6)
+    pose[:22] = matrix_to_rotation_6d(quaternion_to_matrix(quaternion_exp(vectors)))
+    lowest = decode_features(pose[None], fps=30.0).positions()[0, :, 1].min()
+    pose[ROOT_ROW, HEIGHT] += (1.0 if name == "airborne" else 0.05) - float(lowest)
+    return pose.expand(frames, -1, -1).clone()
 
 
 def ramp(frames: int, jump: float = 0.0, at: int = 0) -> torch.Tensor:
@@ -124,3 +152,42 @@ def test_cuts_are_softened_and_the_rest_is_left_alone() -> None:
     assert torch.equal(soft[:, ROOT_ROW, LEFT_CONTACT:], features[:, ROOT_ROW, LEFT_CONTACT:])
     assert torch.equal(soft[:24], features[:24]) and torch.equal(soft[56:], features[56:])
     assert blend_cuts(features, []) is features
+
+
+@pytest.mark.parametrize("stop", WAYS)
+@pytest.mark.parametrize("start", WAYS)
+def test_there_is_a_way_from_any_posture_to_any_other(start: str, stop: str) -> None:
+    before, after = still(start), still(stop)
+    assert posture(before[-1]) == start and posture(after[0]) == stop
+    way = bridge(before, after, 30.0)
+    assert torch.isfinite(way).all() and len(way) >= EDGE * 30
+    whole = torch.cat((before, way, after))
+    joints = decode_features(whole, fps=30.0).positions().astype(float)
+    speed = np.linalg.norm(np.diff(joints, axis=0), axis=-1) * 30
+    assert speed.max() < 3.0 and speed[[2, -4]].max() < 0.2  # begins and ends as slowly
+    assert joints[..., 1].min() > -0.06  # an elbow of who lies down, at most
+    if "airborne" not in (start, stop):
+        assert joints[..., 1].min(1).max() < 0.1  # something is on the floor all the time
+    shorter = bridge(before, after, 30.0, 10)
+    assert len(shorter) == 10
+
+
+def test_who_lies_sits_up_before_he_stands() -> None:
+    way = bridge(still("lying"), still("standing"), 30.0)
+    assert len(way) == round((2 * STEP + EDGE) * 30)
+    seen = [posture(pose) for pose in way]
+    order = [name for number, name in enumerate(seen) if not number or name != seen[number - 1]]
+    assert order == ["lying", "seated", "crouched", "standing"]
+    feet = [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]
+    joints = decode_features(way, fps=30.0).positions().astype(float)
+    up = joints[len(way) // 2 :]  # from a crouch on the feet stay where they are
+    assert np.ptp(up[:, feet].mean(1)[:, [0, 2]], axis=0).max() < 0.08
+
+
+def test_a_leap_is_farther_than_a_body_gets() -> None:
+    lying, standing = still("lying", 30), still("standing", 30)
+    assert leaps(lying[0], standing, 30.0) and leaps(standing[0], lying, 30.0)
+    assert not leaps(standing[0], standing, 30.0)
+    late = torch.cat((standing[:20], lying))
+    assert not leaps(standing[0], late, 30.0)
+    assert not leaps(lying[0, :22], standing[:, :22], 30.0)  # no root track
