@@ -14,7 +14,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from src.shared.model.layers.transformer import sinusoidal
+from src.shared.model.layers import sinusoidal
 
 FEATURES = 25
 MUSIC = 4800  # Jukebox features

@@ -25,7 +25,7 @@ from torch.nn import functional as F
 from src.shared.model.audio import FEATURE_ROWS
 from src.shared.model.audio.unet import AttentionBlock, Downsample, ResBlock, UNet1D, Upsample
 from src.shared.model.diffusion import GaussianDiffusion
-from src.shared.model.layers.transformer import sinusoidal
+from src.shared.model.layers import sinusoidal
 
 
 class LiteralResBlock(nn.Module):

@@ -47,7 +47,7 @@ from ..shared.model.clip.pretrained import encode_captions, place_captions, towe
 from ..shared.model.clip.style_map import StyleMap
 from ..shared.model.clip.tokenizer import PromptTokenizer
 from ..shared.model.generation.motion_generator import KIND, TextToMotion
-from ..shared.model.layers.transformer import masked_mean
+from ..shared.model.layers import masked_mean
 from ..shared.motion.features import decode_features
 from ..shared.motion.motion import Motion
 from ..shared.motion.skeleton import NUM_JOINTS

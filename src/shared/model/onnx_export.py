@@ -24,7 +24,7 @@ from torch import Tensor, nn
 from ..io.files import atomic_write, parse_json, sha256_file, write_json
 from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_card, read_tensors
 from .diffusion import GaussianDiffusion
-from .layers.transformer import RotaryEmbedding
+from .layers import RotaryEmbedding
 from .noise import sampling_timesteps
 from .onnx_card import (
     ONNX_CARD,

@@ -18,7 +18,7 @@ from torch import Tensor, nn
 from torch.nn import functional as F
 
 from ...config_audio import AudioConditionConfig, AugmentationConfig, MemoryConditionConfig
-from ..layers.transformer import TemporalLayer, zeroed
+from ..layers import TemporalLayer, zeroed
 from . import (
     BEAT,
     CHROMA,

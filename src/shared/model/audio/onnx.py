@@ -24,7 +24,7 @@ from torch.nn import functional as F
 
 from ...motion.trajectory import CHANNELS, PHASE
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
-from ..layers.transformer import KeyValue, sinusoidal
+from ..layers import KeyValue, sinusoidal
 from ..onnx_card import AUDIO_GRAPHS, AudioOnnxCard
 from ..onnx_export import EXAMPLE_FRAMES, Shapes, process_info, symbolic, traced, write_export
 from . import CONDITION_ROWS

@@ -33,7 +33,7 @@ from ..checkpoint import (
 from ..clip.core import TextTower
 from ..clip.pretrained import ClipBundle, encode_captions, tower_hash
 from ..clip.tokenizer import PromptTokenizer
-from ..layers.temporal_unet import TemporalUNet
+from ..layers import TemporalUNet
 from . import BEAT, CONDITION_ROWS, FEATURE_ROWS, with_phase_rows
 
 HARMONICS = (1, 2)  # of the octave that a beat's rate lies in

@@ -16,7 +16,7 @@ from torch.nn import functional as F
 from torch.utils.checkpoint import checkpoint
 
 from ...config_audio import NORM_GROUPS, AudioConditionConfig, MemoryConditionConfig, UNetConfig
-from ..layers.transformer import KeyValue, RotaryEmbedding, attend, sinusoidal, zeroed
+from ..layers import KeyValue, RotaryEmbedding, attend, sinusoidal, zeroed
 from . import CONDITION_ROWS, MIN_FRAMES, with_phase_rows
 from .conditioning import AudioConditioner, MemoryCondition, MemoryJoin, Remembered
 

@@ -20,8 +20,7 @@ from torch.nn.functional import normalize, softplus
 
 from ...config_schema import PAIRS, ClipConfig, NetworkConfig
 from ...errors import UserError
-from ..layers.temporal_unet import TemporalUNet
-from ..layers.transformer import masked_mean
+from ..layers import TemporalUNet, masked_mean
 from .features import TextFeatures
 
 BASE = 1 << 15  # token ids stay below, so that keys are int32

@@ -13,7 +13,7 @@ from torch.nn.functional import one_hot, pad, silu
 from ...config_schema import PROVENANCES, NetworkConfig
 from ..checkpoint import ADAPTERS
 from ..clip.features import TextFeatures, null_features
-from ..layers.transformer import (
+from ..layers import (
     AdaptedLinear,
     CrossAttention,
     DenoiserBlock,

@@ -26,7 +26,7 @@ from ..clip.out_of_domain import META_FILE as SCOPE_FILE
 from ..clip.out_of_domain import TABLE_FILE
 from ..clip.style_map import STYLE_FILE
 from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
-from ..layers.transformer import AdaptedLinear, MultiHeadAttention
+from ..layers import AdaptedLinear, MultiHeadAttention
 from ..onnx_card import TextOnnxCard, TokenizerInfo
 from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
 from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH

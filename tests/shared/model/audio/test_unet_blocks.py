@@ -11,7 +11,7 @@ from src.shared.model.audio.unet import (
     ResBlock,
     Upsample,
 )
-from src.shared.model.layers.transformer import RotaryEmbedding
+from src.shared.model.layers import RotaryEmbedding
 from tests.shared.model.audio.tiny_audio import awake
 
 

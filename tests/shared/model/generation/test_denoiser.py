@@ -9,7 +9,7 @@ from torch.nn.functional import normalize
 
 from src.shared.model.clip.features import TextFeatures
 from src.shared.model.generation.denoiser import MotionDenoiser
-from src.shared.model.layers.transformer import DenoiserBlock
+from src.shared.model.layers import DenoiserBlock
 
 B, T, L, D, TAGS = 3, 12, 5, 32, 4
 PROVENANCE_WEIGHT = "provenance_embed.embedding.weight"

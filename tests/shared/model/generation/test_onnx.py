@@ -20,7 +20,7 @@ from src.shared.model.generation.onnx import (
     TEXT_GRAPH,
     export_text,
 )
-from src.shared.model.layers.transformer import AdaptedLinear
+from src.shared.model.layers import AdaptedLinear
 from src.shared.model.onnx_card import READY, TURNED, TextOnnxCard, read_onnx_card
 from src.shared.model.onnx_graphs import OnnxDenoiser, open_graph
 

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from src.shared.model.layers.temporal_unet import TemporalUNet
+from src.shared.model.layers import TemporalUNet
 
 
 @pytest.fixture(scope="module")

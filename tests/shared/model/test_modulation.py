@@ -6,7 +6,7 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.model.layers.transformer import (
+from src.shared.model.layers import (
     AdaLN,
     ChannelDropout,
     FiLM,

@@ -3,7 +3,7 @@
 import pytest
 import torch
 
-from src.shared.model.layers.transformer import (
+from src.shared.model.layers import (
     AdaptedLinear,
     CrossAttention,
     MultiHeadAttention,
