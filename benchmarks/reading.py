@@ -27,7 +27,8 @@ from src.shared.data.captions.book import packaged_book
 from src.shared.evaluation.actions import same_action
 from src.shared.model.clip.out_of_domain import TWINS, words_of
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.pipelines.sentence import SITS, Clause
+from src.shared.pipelines.clause import Clause
+from src.shared.pipelines.sentence import SITS
 from src.shared.pipelines.text import SentenceGenerator
 from src.shared.pipelines.words import STANDS
 

@@ -56,7 +56,7 @@ def test_paths_that_the_documents_name_exist() -> None:
         "src/configs/network.yaml src/configs/train_generation.yaml src/shared/config_loader.py"
         " src/shared/model/generation/denoiser.py src/shared/model/generation/motion_generator.py"
         " src/shared/model/generation/losses.py src/shared/model/clip/core.py"
-        " src/shared/model/layers/temporal_unet.py src/cli/tools.py pyproject.toml poetry.lock"
+        " src/shared/model/layers.py src/cli/tools.py pyproject.toml poetry.lock"
     )
     assert [name for name in named.split() if not (ROOT / name).is_file()] == []
 

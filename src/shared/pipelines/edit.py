@@ -7,7 +7,7 @@ bent as far as it misses, and the body is made once more to go that way.
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Any
@@ -47,6 +47,7 @@ FULLEST = 0.95  # of the way to the pose that is furthest from the first one: th
 LONGEST = 7200.0  # seconds of a motion that clips are part of
 HARDLY = 0.08  # metres that a joint moves at most where a body holds still
 SWAY_SECONDS = 4.0  # forth and back
+HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 EASE = 20  # frames, in which joints leave what they did and come back to it
 LEGS = LIMBS["left-leg"] + LIMBS["right-leg"]
 GROUPS: dict[str, tuple[str, ...]] = LIMBS | {
@@ -254,15 +255,24 @@ def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) ->
     return Constraint(features, known, shown=shown)
 
 
-def held(features: Tensor, frames: int, fps: float) -> Constraint:
-    """A motion [T,R,6] that goes as far from its first pose as it goes, and no way back.
+def held(
+    generator: TextToMotion,
+    passage: Passage,
+    miss: Callable[[int], Miss | None],
+    sampling: Sampling,
+) -> Constraint:
+    """What is done goes as far from its first pose as it goes, and no way back.
 
     From there on all is known: the stretch in which it hardly moves, forth and back at the pace at
     which a body sways that holds still, its place left out.
 
     Args:
-        frames: of the whole; T are enough to get there.
+        miss: how far so many frames are from what is wanted.
     """
+    frames, fps = passage.frames, generator.card.fps
+    first = min(frames, round(HELD_SECONDS * fps))
+    alone = replace(passage, frames=first, miss=miss(first))
+    features = torch.cat(list(stream_features(generator, [alone], sampling)))
     motion = decode_features(features, fps=fps)
     heading = np.unwrap(heading_of(motion).astype(np.float64))
     joints = motion.positions().astype(np.float64)

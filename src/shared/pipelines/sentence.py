@@ -6,69 +6,51 @@ The words are those of words.py. What a clause asks to be done is left to the te
 that is of it decides where no word does.
 """
 
-import math
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from .clause import (
+    GOING,
+    HELD,
+    HELD_MARK,
+    SURE,
+    Clause,
+    Read,
+    Reading,
+    in_tempo,
+    measured,
+    trimmed,
+    without,
+)
 from .words import (
     ARRIVES,
     ARROW,
     CJK_SIGN,
     EDGES,
-    MAX_COUNT,
-    MOST,
     STANDS,
-    UNITS,
     all_words,
     bare,
     begins_after,
-    measure_of,
     names_both,
     place_kept,
     plain_text,
     side_of,
     tidied,
-    value_of,
-)  # fmt: skip
+)
 
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
-SURE, SURE_AT_MARK, SURE_IF_SAID = 0.0, -14.0, -2.0
+SURE_AT_MARK, SURE_IF_SAID = -14.0, -2.0
 SITS, SQUATS = "sits", "squats down"
 BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
-HELD, HALT = "\u23f8", 2.5  # behind what is held; seconds that it takes to come to a stand
-GOING = frozenset({"walk", "run", "crouch-walk"})
+HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
 HOLDABLE = frozenset({"raise", "bow", "squat"})
-_HELD = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 MOST_PIECES = 8  # between commas, that may be one part
 
-
-class Reading(NamedTuple):
-    """What a text alone asks for.
-
-    Attributes:
-        action: None where nobody can say.
-        certainty: log odds that this is it.
-        arms: whether the arms alone do it.
-        known: whether it is near enough to what was learned.
-    """
-
-    action: str | None = None
-    certainty: float = -math.inf
-    arms: bool = False
-    known: bool = True
-
-    @property
-    def surely(self) -> str | None:
-        """The action, where it is sure."""
-        return self.action if self.certainty > SURE else None
-
-
-Read = Callable[[str], Reading]
 Strange = Callable[[str], object]
 GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
 PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
@@ -78,52 +60,7 @@ PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
 }
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
-_SIDES, ABOUT = {"left", "right"}, 180.0  # degrees, which need no side
-
-
-@dataclass(frozen=True)
-class Clause:
-    """One thing to do.
-
-    Attributes:
-        text: the sentence's own words for it, without the measures below.
-        count: how often.
-        degrees: to turn, positive to the left; None where nothing is said.
-        metres: to go; 0 = on the spot.
-        seconds: to go on.
-        steps: to take; None where nothing is said.
-        meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
-        side: left, right or both.
-        held: whether it stays as it is when it is done, to the end.
-        unheard: of the last of some clauses, the words beside them of which nothing is made.
-    """
-
-    text: str
-    count: int = 1
-    degrees: float | None = None
-    metres: float | None = None
-    seconds: float | None = None
-    steps: float | None = None
-    meanwhile: str = ""
-    side: str = "both"
-    held: bool = False
-    unheard: str = ""
-
-    @property
-    def far(self) -> bool:
-        """Whether it says how far to go or to turn."""
-        return not (self.metres is self.steps is self.degrees is None)
-
-    @property
-    def said(self) -> dict[str, Any]:
-        """What it says, by name: its text, and what is not as it is where nothing is said."""
-        plain = vars(Clause(""))
-        return {name: value for name, value in vars(self).items() if value != plain[name]}
-
-    @property
-    def plain(self) -> bool:
-        """Whether it says nothing but what to do."""
-        return self == Clause(self.text, unheard=self.unheard)
+_SIDES = {"left", "right"}
 
 
 def clauses(
@@ -149,7 +86,7 @@ def clauses(
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], known, in_row=in_row) if others else None
-            clause = pair or _parted(first, known) or _measured(first)
+            clause = pair or _parted(first, known) or measured(first)
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
         found[-1] = replace(found[-1], unheard=unheard)
@@ -181,9 +118,9 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     if _says("posed", arms, read) and read(arms).surely != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
     spot = place_kept(text) if clause.metres is clause.degrees is None else None
-    if spot and read(rest := _without(text, spot)).surely in GOING:
+    if spot and read(rest := without(text, spot)).surely in GOING:
         text, clause = rest, replace(clause, metres=0.0)
-    return replace(clause, text=text, meanwhile=arms)
+    return in_tempo(replace(clause, text=text, meanwhile=arms), read)
 
 
 def _bared(text: str, read: Read) -> str:
@@ -196,7 +133,7 @@ def _bared(text: str, read: Read) -> str:
 def whole(sentence: str, found: Sequence[Clause]) -> str:
     """A sentence as one sample hears it: without what it denies, if one plain clause is left."""
     text, first = tidied(sentence), found[0]
-    cut = first.text != _trimmed(plain_text(text)) and len(found) == 1 and first.plain
+    cut = first.text != trimmed(plain_text(text)) and len(found) == 1 and first.plain
     return first.text if cut else text
 
 
@@ -210,13 +147,13 @@ def _staying(text: str, read: Read) -> str:
             stop = long[0]
         own = left[left.rfind(ARROW.strip()) + 1 :]
         tail = own[max((each.end() for each in words.joint.finditer(own)), default=0) :]
-        tried = (read(_measured(_trimmed(each)).text).surely for each in (tail, own))
+        tried = (read(measured(trimmed(each)).text).surely for each in (tail, own))
         denied = re.search("[不没别勿]", left[-4:])
         action, said = None if denied else next(filter(None, tried), None), ""
         stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
         # "crouches and stays down", not "sneaks, staying low"
         if stays and not denied and action in ("crouch-walk", "dodge", None):
-            whole = action and read(_measured(_trimmed(own + match[0])).text).surely
+            whole = action and read(measured(trimmed(own + match[0])).text).surely
             if whole == "squat" or words.crouches.search(own):
                 left, action = f"{left[: len(left) - len(own)]}{SQUATS}", "squat"
         if stays and action in HOLDABLE:
@@ -237,7 +174,7 @@ def _lasting(text: str, place: int) -> tuple[int, float] | None:
     place += len(text[place:]) - len(text[place:].lstrip())
     for name in ("seconds", "minutes"):
         if match := all_words().units[name].match(text, place):
-            return match.end(), _measured(match[0]).seconds or 0.0
+            return match.end(), measured(match[0]).seconds or 0.0
     return None
 
 
@@ -297,14 +234,14 @@ def _ordered(text: str, read: Read) -> list[str]:
                 break
     if found:
         return [part for each in found for part in _ordered(each, read)]
-    return [_trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
+    return [trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
 
 
 def _is_time(text: str, word: re.Match[str], right: str, read: Read, sure: bool = False) -> bool:
     """Whether "before" or "after" says when; a noun behind it may be a place or a thing."""
     if all_words().noun.match(text, word.start()) is None:
         return True
-    noun = read(_measured(_trimmed(all_words().stop.split(right, maxsplit=1)[0])).text)
+    noun = read(measured(trimmed(all_words().stop.split(right, maxsplit=1)[0])).text)
     return noun.action is None or (noun.certainty > SURE and (noun.known or not sure))
 
 
@@ -333,7 +270,7 @@ def _around(left: str, right: str, then: str, read: Read) -> tuple[str, str]:
         return left, right
     late = all_words().verb_then.match(then)  # "und läuft dann langsam rückwärts" is one
     if right.strip(EDGES) and not late:  # "walks in, waves then bows" is three
-        two = _differ(read(_trimmed(own)), read(_trimmed(right)))
+        two = _differ(read(trimmed(own)), read(trimmed(right)))
         if two or len(own.split()) > 3 or re.search(CJK_SIGN, own):
             return left, right
     return left[: borders[-1].start()], f"{own.rstrip()} {right.lstrip()}"
@@ -345,10 +282,10 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     stands beside it. Nothing stays of what is denied at the head ("don't run, …")."""
     words = all_words()
     denial = words.denial.match(text) or words.refusal.search(text)
-    who = denial and _trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
+    who = denial and trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
     if denial and not (who and read(who).certainty > SURE):
-        rest = _trimmed(text[denial.end() :])
-        instead, denied = read(_measured(rest).text), read(_trimmed(denial[0]))
+        rest = trimmed(text[denial.end() :])
+        instead, denied = read(measured(rest).text), read(trimmed(denial[0]))
         if instead.certainty > SURE or (rest and denied.surely not in (None, instead.action)):
             text = rest  # not in "don't move, please"
     borders = [match.span() for match in words.joint.finditer(text)]
@@ -357,11 +294,11 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
               if text[start:stop].strip(EDGES)]  # fmt: skip
     if len(pieces) < 2:
         return [text], ""
-    each = [_trimmed(text[start:stop]) for start, stop in pieces]
+    each = [trimmed(text[start:stop]) for start, stop in pieces]
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
-    more = [words.meanwhile.search(piece) or _HELD.search(piece) for piece in each]
-    odd = [not (aside or said or read(_measured(piece).text).surely) and strange(piece)
+    more = [words.meanwhile.search(piece) or HELD_MARK.search(piece) for piece in each]
+    odd = [not (aside or said or read(measured(piece).text).surely) and strange(piece)
            for aside, said, piece in zip(asides, more, each, strict=True)]  # fmt: skip
     # The best ways up to a piece, one for what their last part is.
     ways: list[dict[_Last, _Way]] = [{(None, "both", False): _Way()}]
@@ -371,8 +308,8 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
         for start in range(max(0, stop - MOST_PIECES), stop):
             if (asides[start] and (start or all(asides[:stop]))) or any(odd[start:stop]):
                 continue  # an aside stays with what stands before it, or else behind it
-            part = _trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
-            clause, side = _measured(part), side_of(part)
+            part = trimmed(text[pieces[start][0] : pieces[stop - 1][1]])
+            clause, side = measured(part), side_of(part)
             reading, far = read(clause.text), clause.far
             last = reading.action, side, far
             before = [way for (action, other, was_far), way in ways[start].items()
@@ -388,9 +325,9 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
         ways.append(here)
     best = max(ways[-1].values(), key=_Way.rank)
     if len(best.parts) > 1 or (
-        any(odd) and any(read(_measured(part).text).known for part in best.parts)
+        any(odd) and any(read(measured(part).text).known for part in best.parts)
     ):
-        return list(best.parts), _HELD.sub("", ", ".join(each[at] for at in best.passed))
+        return list(best.parts), HELD_MARK.sub("", ", ".join(each[at] for at in best.passed))
     return [text], ""
 
 
@@ -419,8 +356,8 @@ def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None
     """The halves of a text that tell most surely of two actions, None where none do."""
     best, sure = None, SURE
     for stop, start in cuts:
-        left, right = _trimmed(text[:stop]), _trimmed(text[start:])
-        first, second = (read(_measured(half).text) for half in (left, right))
+        left, right = trimmed(text[:stop]), trimmed(text[start:])
+        first, second = (read(measured(half).text) for half in (left, right))
         if second is GOT_UP and _differ(first, second):  # "se | pone de pie" is surer, and wrong
             return left, right
         if _differ(first, second, sure):
@@ -491,19 +428,18 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     """Two halves as one clause; None where they are not two actions, or the arms do neither."""
     words = all_words()
     halves = [
-        _trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half)))
-        for half in (left, right)
+        trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half))) for half in (left, right)
     ]
     if any(words.limb.search(half) for half in halves):  # which nothing is said of
         return None
-    first, second = [read(_measured(half).text) for half in halves]
+    first, second = [read(measured(half).text) for half in halves]
     if not (first.arms or second.arms) or not _differ(first, second, sure):
         return None
     body, other = (1, 0) if first.arms and not second.arms else (0, 1)
     sides, alone = _sides(*halves), first.arms and second.arms
     halves = [_naming(half, side) for half, side in zip(halves, sides, strict=True)]
-    meanwhile, certainty = _HELD.sub("", halves[other]), min(first.certainty, second.certainty)
-    clause = replace(_measured(halves[body]), meanwhile=meanwhile, side=sides[other])
+    meanwhile, certainty = HELD_MARK.sub("", halves[other]), min(first.certainty, second.certainty)
+    clause = replace(measured(halves[body]), meanwhile=meanwhile, side=sides[other])
     return _Pair(clause, certainty, alone, alone and set(sides) == _SIDES)
 
 
@@ -522,79 +458,3 @@ def _naming(half: str, side: str) -> str:
     if side not in _SIDES or side_of(half) == side:
         return half
     return words.other.sub(lambda said: words.others[bare(said[0])][side == "right"], half)
-
-
-# ---------------------------------------------------------------- measure
-
-
-def _measured(text: str) -> Clause:
-    """A clause with its measures and its mark taken out."""
-    mark = _HELD.search(text)
-    if mark is None:
-        return _with_measures(text)
-    clause = _with_measures(_HELD.sub("", text))
-    if clause.far or clause.count > 1:  # led, and over when it is done
-        return clause
-    own = clause.seconds
-    seconds = own if mark[1] is None else (own or ARRIVES) + float(mark[1])
-    return replace(clause, seconds=seconds, held=True)
-
-
-def _with_measures(text: str) -> Clause:
-    words, clause = all_words(), Clause(text)
-    said = words.angle.sub(" ", text)  # a right angle is on no side
-    side = side_of(said)
-    for name, (field, factor, least) in UNITS.items():
-        if (match := measure_of(name, clause.text, least)) is None:
-            continue
-        if name == "steps" and words.uncounted.search(match["manner"] or ""):
-            continue  # "raises two arms steps back"
-        number = value_of(match["number"])
-        number += 0.5 * bool(match.groupdict().get("half"))
-        value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
-        if not 0 < value <= MOST[field]:
-            continue
-        stays, before = "", clause.text[: match.start()]
-        if words.larger.search(before):
-            return clause  # "a hundred and fifty metres" are not fifty
-        if name == "steps" and (not before.strip() or words.takes.search(before)):
-            article, _, noun = words.steps[bare(match["noun"])].rpartition(" ")
-            stays = f"{article} {match['manner'] or ''}{noun}".strip()
-        rest = _without(clause.text, match, stays)
-        if rest or name != "steps":
-            said_so: dict[str, Any] = {"text": rest, field: value}
-            clause = replace(clause, **said_so)
-    if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
-        clause = replace(clause, degrees=words.angles[bare(match[0])])
-    round_it = words.corner.search(text) or words.round.search(text)
-    about = words.about.search(clause.text) and not round_it and _counted(clause).count == 1
-    if clause.degrees is None and about:
-        clause = replace(clause, degrees=ABOUT)
-    if clause.degrees is not None:
-        sign = -1.0 if side == "right" else 1.0
-        return replace(clause, degrees=sign * clause.degrees)
-    if clause.metres is None and clause.seconds is None and clause.steps is None:
-        return _counted(clause)
-    return clause
-
-
-def _counted(clause: Clause) -> Clause:
-    """Times, or a bare number before what is done: "twice", "3 times", "x4", "two jumps"."""
-    words = all_words()
-    if match := words.often.search(clause.text):
-        number = words.adverbs[bare(match[0])]
-    elif match := words.times.search(clause.text) or words.bare.search(clause.text):
-        number = int(value_of(next(filter(None, match.groups()))))
-    else:
-        return clause
-    rest = _without(clause.text, match) if 1 < number <= MAX_COUNT else ""
-    return replace(clause, text=rest, count=number) if rest else clause
-
-
-def _without(text: str, match: re.Match[str], stays: str = "") -> str:
-    before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
-    return _trimmed(f"{before} {stays} {after}" if stays else f"{before} {after}")
-
-
-def _trimmed(text: str) -> str:
-    return all_words().loose.sub("", text.strip(EDGES)).strip(EDGES)

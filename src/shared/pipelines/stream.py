@@ -59,7 +59,7 @@ class Passage:
     tag: str | None = None
     window: int | None = None
     miss: Miss | None = None
-    timed: bool = False
+    timed: int | None = None
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -168,7 +168,7 @@ def stream_features(
             lucky = [noises[best]] if passage.window else []
             if bridged and not len(shared) and len(before) and is_apart(before, piece):
                 way = bridge(before, piece, fps)
-                if passage.timed:  # a part of what the passage has
+                if passage.timed is not None:  # a part of what the passage has
                     cut = min(len(way), length // 2)
                     piece, length, made = piece[cut:], length - cut, made + cut
                     way = bridge(before, piece, fps, cut)

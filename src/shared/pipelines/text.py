@@ -44,6 +44,7 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
+from .clause import GOING, Clause, Reading
 from .edit import ControlledMotion, all_but, chosen_joints, fill_free, held
 from .path import (
     TURN_REST,
@@ -57,7 +58,7 @@ from .path import (
     time_path,
     turned,
 )  # fmt: skip
-from .sentence import GOING, LOW, Clause, Reading, clauses, whole
+from .sentence import LOW, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
@@ -66,7 +67,6 @@ SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to b
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
-HELD_SECONDS = 4.0  # at most, to see how far an action goes that is to be held
 ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncounted claps
 CLAP_PACE, TO_LAND = 2, 1.3  # times as fast as made people clap; seconds for a last step to land
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
@@ -281,7 +281,8 @@ class SentenceGenerator:
         """How far a passage of so many frames is from showing its clause and ending at rest."""
         wanted, fps, scope = self._wanted(clause.text), self.card.fps, self.scope
         action, side, latest = self._nearest(clause.text), side_of(clause.text), self._window()
-        pace = self._pace(clause) if frames < math.inf else 1  # edits are shown as they are made
+        # Edits are shown as they are made; what is shown fast or slowly is looked at as it is made.
+        pace = self._pace(replace(clause, tempo=1.0)) if frames < math.inf else 1
         rests = scope is not None and action in scope.gestures
         if action is None or frames < LEAST * fps or not (rests or wanted):
             return None
@@ -342,10 +343,11 @@ class SentenceGenerator:
             return False
         return self._reading(CLAPS).surely == "clap" and not says_number(clause.text)
 
-    def _pace(self, clause: Clause) -> int:
+    def _pace(self, clause: Clause) -> float:
         """How many times as fast a clause is shown as the network makes it."""
         claps = self._nearest(clause.text) == "clap" and clause.metres is clause.degrees is None
-        return CLAP_PACE if claps and (clause.count > 1 or self._applauds(clause)) else 1
+        hastens = claps and (clause.count > 1 or self._applauds(clause))
+        return clause.tempo * (CLAP_PACE if hastens else 1)
 
     def _turns(self, clause: Clause) -> bool:
         """Whether the heading of a clause is led: it names an angle, spins, or bends its way."""
@@ -472,10 +474,10 @@ class SentenceGenerator:
                 rest = all_but(features, start, stop, joints)
                 features = fill_free(self.generator, part.meanwhile, rest, sampling)
         shown, end = list[Tensor](), 0
-        for (start, stop), part in zip(spans, parts, strict=True):
+        for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None
             steady = self._steady(part.text, alone=len(parts) == 1) if free else ()
-            does = hastened(without_drift(does, steady), self._pace(part))
+            does = hastened(without_drift(does, steady), self._pace(part), passage.timed)
             shown, end = [*shown, features[end:start], does], stop
         ends = [*accumulate(map(len, shown))]
         features, spans = torch.cat(shown), [*zip(ends[::2], ends[1::2], strict=True)]
@@ -507,22 +509,27 @@ class SentenceGenerator:
     ) -> tuple[Passage, Constraint | None]:
         """What one clause becomes, and what is known of its frames; they are `exactly` so many."""
         fps = self.card.fps
-        if timed := exactly is not None:
+        if exactly is not None:
             clause = replace(clause, seconds=exactly / fps)
         steps = self._nearest(clause.text) in STEPPING and clause.seconds is None and clause.steps
         if steps:
             gait = self._gait(clause.text, sampling, tag)
             clause = replace(clause, seconds=time_of_steps(steps, gait.speed))
-        seconds, given, pace = clause.seconds or seconds, None, self._pace(clause)
-        passage = Passage(clause.text, max(1, round(seconds * fps)) * pace, tag, timed=timed)
-        seconds, exactly = seconds * pace, exactly and exactly * pace
+        given, pace = None, self._pace(clause)
+        if clause.seconds is not None:
+            seconds, clause = clause.seconds, replace(clause, seconds=clause.seconds * pace)
+        elif pace < 1:  # who is slow takes longer
+            seconds = max(seconds, min(seconds, ONCE[1]) / pace)
+        frames = max(1, round(max(1, round(seconds * fps)) * pace))
+        passage, seconds = Passage(clause.text, frames, tag, timed=exactly), seconds * pace
+        exactly = exactly and frames
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames
             clause = replace(clause, count=max(1, round(seconds / CLAP)))
         if self._turns(clause):
             given = self._turn(clause, seconds, sampling)
         elif clause.metres is not None:
-            given = self._led(passage, clause, sampling, timed=timed)
+            given = self._led(passage, clause, sampling, timed=exactly is not None)
         elif clause.count > 1:
             once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
             frames = once * clause.count
@@ -530,7 +537,7 @@ class SentenceGenerator:
                 frames, once = exactly, math.ceil(exactly / clause.count)
             passage = replace(passage, frames=frames, window=once + REPEATED_OVERLAP)
         elif clause.held:
-            given = self._held(passage, clause, sampling)
+            given = held(self.generator, passage, partial(self._miss, clause), sampling)
         if given is not None:
             return replace(passage, frames=len(given)), given
         return replace(passage, miss=self._miss(clause, passage.frames)), None
@@ -587,13 +594,6 @@ class SentenceGenerator:
             log.warning("%r: %s; until then it takes its own time", passage.text, error)
             path = pace(seconds=None)
         return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()
-
-    def _held(self, passage: Passage, clause: Clause, sampling: Sampling) -> Constraint:
-        """What is done, and stays as it is then."""
-        frames = min(passage.frames, round(HELD_SECONDS * self.card.fps))
-        alone = replace(passage, frames=frames, miss=self._miss(clause, frames))
-        done = torch.cat(list(stream_features(self.generator, [alone], sampling)))
-        return held(done, passage.frames, self.card.fps)
 
     def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
         free = [*stream_features(self.generator, [passage], sampling)]

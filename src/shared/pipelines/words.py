@@ -235,8 +235,6 @@ class Words:
         ends = rf"(?:{ends}|(?=\s*{_lead()}{amount}))"
         self.halts = Rare(rf"{further}{halts}{ends}", all_of("halts"))
         self.halt_alone = Rare(rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$", all_of("halts"))
-        self.crouches = Rare(_any(all_of("crouches")), all_of("crouches"))
-        self.head_turns = Rare(_any(all_of("head_turns")), all_of("head_turns"))
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
         someone += rf"|{CJK_SIGN}{{1,4}})?"
         self.downs = Rare(rf"^{someone}{_any(all_of('downs'))}", all_of("downs"))
@@ -289,9 +287,11 @@ class Words:
         self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
-        self.in_place = Rare(_any(all_of("in_place")), all_of("in_place"))
-        self.off = Rare(_any(all_of("off")), all_of("off"))
-        self.many = Rare(_any(all_of("many")), all_of("many"))
+        keys = "in_place", "off", "many", "crouches", "head_turns", "tempos"
+        self.in_place, self.off, self.many, self.crouches, self.head_turns, self.tempo = (
+            Rare(_any(all_of(key)), all_of(key)) for key in keys
+        )
+        self.tempos = {bare(said): by for t in tables for said, by in t["tempos"].items()}
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
         several = [word for word, value in numbers.items() if value > 1]

@@ -5,6 +5,7 @@ import {
   apply, clamp, continuous, headingAngle, matrixOf, matrixOf6d, multiply, quaternionOf, unwrap,
   write6d, yawMatrix,
 } from "./rotations.js";
+import { round } from "./curves.js";
 import { FPS, JOINTS } from "./skeleton.js";
 
 export const ROWS = 23;
@@ -33,14 +34,23 @@ export function removeDrift(features, columns, start = 0, stop = framesOf(featur
   }
 }
 
-/** Features so many times as fast: every so many-th frame, which goes as far as those that it stands for. */
-export function hastened(features, times) {
-  if (times === 1) return features;
-  const fast = new Float32Array(Math.ceil(framesOf(features) / times) * WIDTH);
-  for (let t = 0; t * WIDTH < fast.length; t++) {
-    fast.set(cut(features, t * times, t * times + 1), t * WIDTH);
-    for (let late = t * times + 1; late < Math.min((t + 1) * times, framesOf(features)); late++)
-      for (const column of [FORWARD, LATERAL, YAW_RATE]) fast[t * WIDTH + ROOT + column] += features[late * WIDTH + ROOT + column];
+/** Features so many times as fast, or in so many frames: between two frames a share of both, and it goes as far as they do. */
+export function hastened(features, times, frames = Math.max(1, round(framesOf(features) / times))) {
+  const made = framesOf(features), last = made - 1;
+  if (times === 1 && frames === made) return features;
+  const fast = new Float32Array(frames * WIDTH), columns = [FORWARD, LATERAL, YAW_RATE];
+  const gone = columns.map((column) => {
+    const sums = new Float64Array(made + 1);
+    for (let t = 0; t < made; t++) sums[t + 1] = sums[t] + features[t * WIDTH + ROOT + column];
+    return sums;
+  });
+  const way = (sums, at) => { const t = Math.min(Math.floor(at), last); return sums[t] + (at - t) * (sums[t + 1] - sums[t]); };
+  for (let t = 0; t < frames; t++) {
+    const at = t * (made / frames), before = Math.min(Math.floor(at), last), after = Math.min(before + 1, last);
+    const share = Math.min(at, last) - before;
+    for (let c = 0; c < WIDTH; c++)
+      fast[t * WIDTH + c] = features[before * WIDTH + c] + share * (features[after * WIDTH + c] - features[before * WIDTH + c]);
+    columns.forEach((column, i) => { fast[t * WIDTH + ROOT + column] = way(gone[i], (t + 1) * (made / frames)) - way(gone[i], at); });
   }
   return fast;
 }

@@ -97,8 +97,8 @@ export class Director {
       const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length), least = own.length * SHORTEST;
       if (own.length > 1 && frames < least * FPS) throw new Error(`“${text}” asks for ${own.length} things in ${(frames / FPS).toFixed(1)} seconds; give it ${least.toFixed(1)} or more.`);
       for (const [i, part] of own.entries()) {
-        const { passage, given } = await this.stretch(part, frames / FPS, seed, stop(i + 1) - stop(i));
-        stretches.push({ passage: { ...passage, timed: true }, given });
+        const timed = stop(i + 1) - stop(i), { passage, given } = await this.stretch(part, frames / FPS, seed, timed);
+        stretches.push({ passage: { ...passage, timed }, given });
       }
       parts.push(...own);
     }
@@ -202,7 +202,7 @@ export class Director {
       shown.push(cut(features, end, start));
       end = stop;
       const first = joined();
-      shown.push(hastened(does, this.pace(part)));
+      shown.push(hastened(does, this.pace(part), passages[i].timed));
       return [first, joined()];
     });
     const motion = postProcess(joinArrays(shown), this.settings.post, { text });
@@ -248,17 +248,22 @@ export class Director {
     const { text, count } = clause, afresh = this.beginsStanding(text);
     if (clause.steps !== null && clause.seconds === null) clause = { ...clause, seconds: await this.stepping(clause, seed) };
     const pace = this.pace(clause);
-    seconds = (clause.seconds ?? seconds) * pace;
-    exactly &&= exactly * pace;
+    if (clause.seconds !== null) {
+      seconds = clause.seconds;
+      clause = { ...clause, seconds: seconds * pace };
+    } else if (pace < 1) seconds = Math.max(seconds, Math.min(seconds, ONCE[1]) / pace); // who is slow takes longer
+    const frames = Math.max(1, round(Math.max(1, round(seconds * FPS)) * pace));
+    seconds *= pace;
+    if (exactly !== null) exactly = frames;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
     if (this.applauds(clause) && !(await this.turns(clause))) {
-      const claps = Math.max(1, round(seconds / CLAP)), frames = Math.max(1, round((seconds / pace) * FPS)) * pace;
+      const claps = Math.max(1, round(seconds / CLAP));
       if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, frames);
       if (!clause.held) return { passage: { text: CLAPS, frames, afresh: this.beginsStanding(CLAPS), miss: this.miss(clause, frames) } };
     }
     if (await this.turns(clause)) return led(await this.turn(clause, seconds, seed));
     if (clause.metres === 0) {
-      const given = freeConstraint(Math.max(1, round(seconds * FPS)));
+      const given = freeConstraint(frames);
       for (let at = ROOT; at < given.values.length; at += WIDTH) given.known[at + FORWARD] = given.known[at + LATERAL] = 1; // on the spot
       return led(given);
     }
@@ -276,7 +281,6 @@ export class Director {
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
     if (count > 1) return this.repeated(clause, text, seconds, exactly);
-    const frames = Math.max(1, round(seconds * FPS));
     if (clause.held) return led(await this.held(clause, frames, seed));
     return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
   }
@@ -297,7 +301,7 @@ export class Director {
   /** How many times as fast a clause is shown as the network makes it. */
   pace(clause) {
     const claps = this.nearest(clause.text) === "clap" && clause.metres === null && clause.degrees === null;
-    return claps && (clause.count > 1 || this.applauds(clause)) ? CLAP_PACE : 1;
+    return clause.tempo * (claps && (clause.count > 1 || this.applauds(clause)) ? CLAP_PACE : 1);
   }
 
   /** What a clause asks for several times, each in a window of its own. */
@@ -408,7 +412,7 @@ export class Director {
   miss(clause, frames) {
     const wanted = this.wanted(clause.text), action = this.nearest(clause.text), side = this.reader.sideOf(clause.text);
     if (action === null || frames < LEAST * FPS) return null;
-    const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = frames < Infinity ? this.pace(clause) : 1; // edits are shown as they are made
+    const rests = this.scope.meta.gestures.includes(action), latest = this.window(), pace = frames < Infinity ? this.pace({ ...clause, tempo: 1 }) : 1; // edits are shown as they are made, and what is shown fast or slowly is looked at as it is made
     if (wanted === null && !rests) return null;
     return (features) => {
       const motion = pace > 1 ? handsMeet(postProcess(hastened(features, pace), this.settings.post, {})) : decodeFeatures(features);

@@ -13,17 +13,17 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const SPRINT = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false, unheard: "" });
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false, tempo: 1, unheard: "" });
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
-  && !clause.meanwhile && clause.side === "both" && !clause.held;
+  && !clause.meanwhile && clause.side === "both" && !clause.held && clause.tempo === 1;
 
 function strip(text, characters = EDGES) {
   let start = 0, stop = text.length;
@@ -119,9 +119,21 @@ export class SentenceReader {
     const spot = clause.metres === null && clause.degrees === null ? this.placeKept(text) : null;
     if (spot) {
       const rest = this.without(text, spot);
-      if (GOING.includes(surely(this.plainRead(rest)))) return { ...clause, text: rest, meanwhile, metres: 0 };
+      if (GOING.includes(surely(this.plainRead(rest)))) return this.inTempo({ ...clause, text: rest, meanwhile, metres: 0 });
     }
-    return { ...clause, text, meanwhile };
+    return this.inTempo({ ...clause, text, meanwhile });
+  }
+
+  /** A clause without the word that says how fast; walks know it, and nobody runs slowly. */
+  inTempo(clause) {
+    const said = clause.steps === null ? this.first.tempo.exec(clause.text) : null;
+    if (!said) return clause;
+    const rest = this.without(clause.text, said), tempo = this.tempos[bare(plain(said[0]))];
+    const own = isPlain(clause) ? { ...this.measured(rest), unheard: clause.unheard } : { ...clause, text: rest };
+    const what = this.plainRead(own.text), runs = what.action === "run";
+    if (!surely(what) && !(what.action && what.known)) return clause;
+    if (GOING.includes(what.action) && (!runs || tempo < 1)) return clause;
+    return { ...own, tempo: runs ? Math.min(tempo, SPRINT) : tempo };
   }
 
   /** A text, without its subject where only then it is sure what it asks for. */

@@ -15,6 +15,7 @@ from src.shared.motion.features import (
     Place,
     decode_features,
     encode_features,
+    hastened,
     mirror_features,
     without_drift,
 )
@@ -214,3 +215,17 @@ def test_who_does_not_leave_his_place_ends_where_he_began() -> None:
     ground = decode_features(without_drift(features, [FORWARD, LATERAL])).root_position[:, [0, 2]]
     assert np.allclose(ground[-1], ground[0], atol=0.01)
     assert np.ptp(ground, axis=0).max() > 0.05
+
+
+@given(st.integers(2, 60), st.floats(0.3, 3.0), st.integers(0, 100))
+def test_what_is_hastened_goes_as_far_in_its_time(frames: int, times: float, seed: int) -> None:
+    features = torch.randn(frames, 23, 6, generator=torch.Generator().manual_seed(seed))
+    fast = hastened(features, times)
+    assert len(fast) == max(1, round(frames / times)) and hastened(features, 1.0) is features
+    columns = [FORWARD, LATERAL, YAW_RATE]
+    gone = [each[:, ROOT_ROW, columns].double().sum(0) for each in (features, fast)]
+    torch.testing.assert_close(gone[1], gone[0], atol=1e-4, rtol=1e-4)
+    torch.testing.assert_close(fast[0, :22], features[0, :22])
+    assert len(hastened(features, times, 17)) == 17
+    double = torch.cat((features, features[-1:]))[: 2 * (frames // 2)]
+    torch.testing.assert_close(hastened(double, 2.0)[:, :22], double[::2, :22])  # no frame between

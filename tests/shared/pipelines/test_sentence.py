@@ -13,7 +13,8 @@ from src.shared.config_loader import load_yaml, packaged_config, parse_yaml
 from src.shared.data.captions.book import packaged_book
 from src.shared.model.checkpoint import resolve_model
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
-from src.shared.pipelines.sentence import Clause, Reading, clauses
+from src.shared.pipelines.clause import Clause, Reading
+from src.shared.pipelines.sentence import clauses
 from src.shared.pipelines.words import (
     Rare,
     all_words,
@@ -274,6 +275,36 @@ def test_each_clause_has_its_own_measures():
         Clause("turn left", degrees=90),
         Clause("jump", count=2),
     ]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "clause"),
+    [
+        ("a man bows slowly", Clause("a man bows", tempo=0.6)),
+        ("squat five times in slow motion", Clause("squat", count=5, tempo=0.4)),
+        ("10 sentadillas rápidas", Clause("sentadillas", count=10, tempo=1.5)),
+        ("elle s'incline très lentement", Clause("elle s'incline", tempo=0.6)),
+        ("er verbeugt sich so schnell er kann", Clause("er verbeugt sich", tempo=2)),
+        ("素早くお辞儀をする", Clause("お辞儀をする", tempo=1.5)),
+        ("快速地鞠躬", Clause("鞠躬", tempo=1.5)),
+        ("quickly turn around", Clause("turn around", degrees=180.0, tempo=1.5)),
+        ("bow slowly for five seconds", Clause("bow", seconds=5.0, tempo=0.6)),
+        ("walks slowly", Clause("walks slowly")),  # which the network knows
+        ("runs slowly", Clause("jogs")),
+        ("runs as fast as he can", Clause("runs", tempo=1.5)),
+        ("moves quickly", Clause("moves quickly")),  # nobody can say what
+    ],
+)
+def test_how_fast_is_taken_out_of_the_words(sentence: str, clause: Clause):
+    def read(text: str) -> Reading:
+        actions = {"walk": "walk", "run": "run", "jog": "run", "turn": "turn", "squat": "squat",
+                   "sentadilla": "squat"}  # fmt: skip
+        bows = ("bow", "incline", "verbeugt", "お辞儀", "鞠躬")
+        found = [name for word, name in (actions | dict.fromkeys(bows, "bow")).items()
+                 if word in text]  # fmt: skip
+        return Reading(found[0], 3.0) if found else Reading()
+
+    assert clauses(sentence, read) == [clause]
 
 
 @pytest.mark.parametrize("sentence", ["walk 900 metres", "turn 5000 degrees", "jump 1000 times"])

@@ -169,6 +169,32 @@ def test_what_a_number_alone_makes_known_is_warned_of(starter: TextToMotion):
     assert sentences.scope_warnings(turned) == [None, None]  # the angle says that it is a turn
 
 
+def test_what_is_said_to_be_slow_or_fast_is(starter: TextToMotion):
+    """Of what the network makes of a bow, whose pace no word changed, and of crawls on their way;
+    where its time is told it holds."""
+    sentences = SentenceGenerator(starter)
+
+    def made(text: str) -> Motion:
+        return sentences.generate([text], seed=1)[0]
+
+    def pace(text: str) -> float:
+        motion = made(text)
+        joints = motion.positions()
+        speed = np.linalg.norm(np.diff(joints - joints[:, :1], axis=0), axis=-1) * motion.fps
+        return float(np.percentile(speed.max(1), 95))
+
+    slow, usual, fast = map(pace, ("a man bows slowly", "a man bows", "a man bows quickly"))
+    assert slow < 0.8 * usual < 0.8 * fast / 1.2
+    ways = [made(f"a person crawls{more}") for more in (" slowly", "", " quickly")]
+    gone = [float(np.hypot(*each.root_position[-1, [0, 2]])) / each.seconds for each in ways]
+    assert gone[0] < 0.75 * gone[1] < 0.75 * gone[2] / 1.3
+    assert made("does 4 push-ups").seconds == pytest.approx(10.0, abs=0.1)
+    assert made("does 4 quick push-ups").seconds == pytest.approx(10.0 / 1.5, abs=0.1)
+    assert made("bows slowly for five seconds").seconds == pytest.approx(5.0, abs=0.05)
+    passages = Passage("a man bows slowly", 57), Passage("a man jumps in slow motion", 67)
+    assert sentences.timeline(Timeline(passages), Sampling()).num_frames == 124
+
+
 def test_claps_are_shown_twice_as_fast_as_they_are_made(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     for text, count in (("claps twice", 2), ("claps three times", 3), ("claps four times", 4)):

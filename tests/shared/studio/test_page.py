@@ -119,7 +119,8 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
     ["a jogger runs in place", "she walks forward, then jumps", "he runs, then runs in place",
      "他走，然后不停地跳跃", "claps three times", "he walks, then claps twice", "two steps back",
      "he bows, then takes three steps forward", "lies down on the floor", "does push-ups",
-     "a person sleeps, then walks forward"],
+     "a person sleeps, then walks forward", "a man bows slowly", "does 3 quick squats",
+     "il saute au ralenti, puis il tape vite dans ses mains"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path

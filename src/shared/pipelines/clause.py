@@ -1,0 +1,194 @@
+"""One clause: what it asks for, and how often, how far, how long and how fast.
+
+What its words say of that is taken out of them: "waves twice" is "waves", 2 times. The words are
+those of words.py.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+from .words import (
+    ARRIVES,
+    EDGES,
+    MAX_COUNT,
+    MOST,
+    UNITS,
+    all_words,
+    bare,
+    measure_of,
+    plain_text,
+    side_of,
+    value_of,
+)
+
+SURE = 0.0  # log odds: how sure it must be what a text asks for
+HELD = "\u23f8"  # behind what is held
+GOING = frozenset({"walk", "run", "crouch-walk"})
+ABOUT = 180.0  # degrees, which need no side
+SPRINT = 1.5  # times as fast as a run, at most
+HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
+
+
+class Reading(NamedTuple):
+    """What a text alone asks for.
+
+    Attributes:
+        action: None where nobody can say.
+        certainty: log odds that this is it.
+        arms: whether the arms alone do it.
+        known: whether it is near enough to what was learned.
+    """
+
+    action: str | None = None
+    certainty: float = -math.inf
+    arms: bool = False
+    known: bool = True
+
+    @property
+    def surely(self) -> str | None:
+        """The action, where it is sure."""
+        return self.action if self.certainty > SURE else None
+
+
+Read = Callable[[str], Reading]
+
+
+@dataclass(frozen=True)
+class Clause:
+    """One thing to do.
+
+    Attributes:
+        text: the sentence's own words for it, without the measures below.
+        count: how often.
+        degrees: to turn, positive to the left; None where nothing is said.
+        metres: to go; 0 = on the spot.
+        seconds: to go on.
+        steps: to take; None where nothing is said.
+        meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
+        side: left, right or both.
+        held: whether it stays as it is when it is done, to the end.
+        tempo: how many times as fast as usual.
+        unheard: of the last of some clauses, the words beside them of which nothing is made.
+    """
+
+    text: str
+    count: int = 1
+    degrees: float | None = None
+    metres: float | None = None
+    seconds: float | None = None
+    steps: float | None = None
+    meanwhile: str = ""
+    side: str = "both"
+    held: bool = False
+    tempo: float = 1.0
+    unheard: str = ""
+
+    @property
+    def far(self) -> bool:
+        """Whether it says how far to go or to turn."""
+        return not (self.metres is self.steps is self.degrees is None)
+
+    @property
+    def said(self) -> dict[str, Any]:
+        """What it says, by name: its text, and what is not as it is where nothing is said."""
+        plain = vars(Clause(""))
+        return {name: value for name, value in vars(self).items() if value != plain[name]}
+
+    @property
+    def plain(self) -> bool:
+        """Whether it says nothing but what to do."""
+        return self == Clause(self.text, unheard=self.unheard)
+
+
+def measured(text: str) -> Clause:
+    """A clause with its measures and its mark taken out."""
+    mark = HELD_MARK.search(text)
+    if mark is None:
+        return _with_measures(text)
+    clause = _with_measures(HELD_MARK.sub("", text))
+    if clause.far or clause.count > 1:  # led, and over when it is done
+        return clause
+    own = clause.seconds
+    seconds = own if mark[1] is None else (own or ARRIVES) + float(mark[1])
+    return replace(clause, seconds=seconds, held=True)
+
+
+def _with_measures(text: str) -> Clause:
+    words, clause = all_words(), Clause(text)
+    said = words.angle.sub(" ", text)  # a right angle is on no side
+    side = side_of(said)
+    for name, (field, factor, least) in UNITS.items():
+        if (match := measure_of(name, clause.text, least)) is None:
+            continue
+        if name == "steps" and words.uncounted.search(match["manner"] or ""):
+            continue  # "raises two arms steps back"
+        number = value_of(match["number"])
+        number += 0.5 * bool(match.groupdict().get("half"))
+        value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
+        if not 0 < value <= MOST[field]:
+            continue
+        stays, before = "", clause.text[: match.start()]
+        if words.larger.search(before):
+            return clause  # "a hundred and fifty metres" are not fifty
+        if name == "steps" and (not before.strip() or words.takes.search(before)):
+            article, _, noun = words.steps[bare(match["noun"])].rpartition(" ")
+            stays = f"{article} {match['manner'] or ''}{noun}".strip()
+        rest = without(clause.text, match, stays)
+        if rest or name != "steps":
+            said_so: dict[str, Any] = {"text": rest, field: value}
+            clause = replace(clause, **said_so)
+    if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
+        clause = replace(clause, degrees=words.angles[bare(match[0])])
+    round_it = words.corner.search(text) or words.round.search(text)
+    about = words.about.search(clause.text) and not round_it and _counted(clause).count == 1
+    if clause.degrees is None and about:
+        clause = replace(clause, degrees=ABOUT)
+    if clause.degrees is not None:
+        sign = -1.0 if side == "right" else 1.0
+        return replace(clause, degrees=sign * clause.degrees)
+    if clause.metres is None and clause.seconds is None and clause.steps is None:
+        return _counted(clause)
+    return clause
+
+
+def _counted(clause: Clause) -> Clause:
+    """Times, or a bare number before what is done: "twice", "3 times", "x4", "two jumps"."""
+    words = all_words()
+    if match := words.often.search(clause.text):
+        number = words.adverbs[bare(match[0])]
+    elif match := words.times.search(clause.text) or words.bare.search(clause.text):
+        number = int(value_of(next(filter(None, match.groups()))))
+    else:
+        return clause
+    rest = without(clause.text, match) if 1 < number <= MAX_COUNT else ""
+    return replace(clause, text=rest, count=number) if rest else clause
+
+
+def without(text: str, match: re.Match[str], stays: str = "") -> str:
+    """A text with what `stays` in place of what was found."""
+    before, after = text[: match.start()].rstrip(), text[match.end() :].lstrip()
+    return trimmed(f"{before} {stays} {after}" if stays else f"{before} {after}")
+
+
+def trimmed(text: str) -> str:
+    """A text without the stops and conjunctions at its ends."""
+    return all_words().loose.sub("", text.strip(EDGES)).strip(EDGES)
+
+
+def in_tempo(clause: Clause, read: Read) -> Clause:
+    """A clause without the word that says how fast; walks know it, and nobody runs slowly."""
+    words = all_words()
+    if clause.steps is not None or (said := words.tempo.search(clause.text)) is None:
+        return clause
+    rest, tempo = without(clause.text, said), words.tempos[bare(plain_text(said[0]))]
+    own = replace(clause, text=rest)
+    own = replace(measured(rest), unheard=clause.unheard) if clause.plain else own
+    what = read(own.text)
+    if not (what.surely or (what.action and what.known)):
+        return clause
+    if what.action in GOING and (what.action != "run" or tempo < 1):
+        return clause
+    return replace(own, tempo=min(tempo, SPRINT) if what.action == "run" else tempo)
