@@ -132,15 +132,18 @@ def stream_features(
         return met(before, piece, known.known)
 
     def leapt(passage: Passage, frames: int, seed: int) -> bool:
-        """Whether what goes on from before leaps, as it does not where it comes first, and where
-        no pose is known of it."""
+        """Whether what comes first begins a leap away, or what goes on from before leaps as that
+        does not; not where a pose is known of it."""
         given = None if constraint is None else constraint(made, made + frames)
         if given is not None and bool(given.known[:, :ROOT_ROW].any()):
             return False
-        if not leaps(before[-1], tried(passage, frames, seed, before), fps):
-            return False
         piece = tried(passage, frames, seed, before[:0], alone=True)
-        return is_apart(before, piece) or not leaps(piece[0], piece, fps)
+        if is_apart(before, piece) and leaps(before[-1], piece[:1], fps):
+            return True
+        joined = tried(passage, frames, seed, before)
+        return leaps(before[-1], joined, fps) and (
+            is_apart(before, piece) or not leaps(piece[0], piece, fps)
+        )
 
     for passage in passages:
         own = before[:0]  # what there is of the passage

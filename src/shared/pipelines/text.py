@@ -58,7 +58,7 @@ from .path import (
     time_path,
     turned,
 )  # fmt: skip
-from .sentence import LOW, clauses, whole
+from .sentence import clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
@@ -453,8 +453,8 @@ class SentenceGenerator:
             first = STOP if stands else TURN_REST * (start > 0 and part.metres == 0)
             until = start + round(first * fps)  # who went comes to a stop first
             given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
-        low = [self._nearest(part.text) in LOW for part in parts]
-        for at, join in enumerate(starts[1:-1]):  # who sits or kneels down or gets up
+        low = [self._nearest(part.text) == "sit" for part in parts]
+        for at, join in enumerate(starts[1:-1]):  # who sits down or gets up
             if low[at] or low[at + 1]:
                 begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
                 led |= lead_height(given, join, begin, end, fps)

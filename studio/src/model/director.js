@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isPlain, LOW, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, isPlain, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -216,9 +216,9 @@ export class Director {
     return { ...rested, text };
   }
 
-  /** Where somebody sits or kneels down or gets up, the pelvis does so as fast as people do; whether anybody does. */
+  /** Where somebody sits down or gets up, the pelvis does so as fast as people do; whether anybody does. */
   async ledDown(given, parts, starts, seed) {
-    const low = ({ text }) => LOW.includes(this.nearest(text));
+    const low = ({ text }) => this.nearest(text) === "sit";
     let found = false;
     for (let i = 1; i < parts.length; i++) {
       const pair = parts.slice(i - 1, i + 1), heights = [];

@@ -120,13 +120,13 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     if (alone || kept || !before.length || (bridged && isApart(before, piece))) return piece;
     return met(before, piece, known.known);
   };
-  /** Whether what goes on from before leaps, as it does not where it comes first, and where no pose is known of it; null as above. */
+  /** Whether what comes first begins a leap away, or what goes on from before leaps as that does not; not where a pose is known of it; null as above. */
   const leapt = async (passage, frames) => {
     if (constraint?.known.slice(made * WIDTH, (made + frames) * WIDTH).some((known, i) => known && i % WIDTH < ROOT)) return false;
-    const [trial] = seeds(), joined = await tried(passage, frames, trial, before);
-    if (!joined || !leaps(before, joined)) return joined && false;
-    const piece = await tried(passage, frames, trial, new Float32Array(), true);
-    return piece && (isApart(before, piece) || !leaps(cut(piece, 0, 1), piece));
+    const [trial] = seeds(), piece = await tried(passage, frames, trial, new Float32Array(), true);
+    if (!piece || (isApart(before, piece) && leaps(before, cut(piece, 0, 1)))) return piece && true;
+    const joined = await tried(passage, frames, trial, before);
+    return joined && leaps(before, joined) && (isApart(before, piece) || !leaps(cut(piece, 0, 1), piece));
   };
   next: for (const passage of passages) {
     if (passage.text === said && framesOf(spare) >= passage.frames) {

@@ -28,6 +28,7 @@ from ..features import (
 from ..filters import smoothed
 from ..motion import Motion
 from ..rotations import (
+    axis_angle_to_matrix,
     matrix_to_quaternion,
     matrix_to_rotation_6d,
     quaternion_conjugate,
@@ -176,6 +177,8 @@ LOW, SEAT = 0.75, 0.35  # of a standing pelvis' height: who is lower crouches, o
 IN_THE_AIR = 0.3  # metres above the floor of the lowest joint
 EDGE, STEP = 1.0, 0.6  # seconds from one pose to the next, and until the one after that begins
 WHOLE = 10_000  # frames: more than any way has
+FLAT = 0.02  # metres by which an ankle is higher that carries 1 / e as much
+STAYS = 0.2  # m/s of a foot, at most, that carries
 STOPPING = 0.1  # seconds in which what moved comes to rest
 SHARP = 60.0  # 1/m, of the soft minimum of how far joints are above the floor
 FLOORED = 0.2, 0.4  # metres: a pelvis that is lower rests on the floor, on the feet if it is higher
@@ -192,6 +195,12 @@ POSES: dict[str, Pose] = {
         "foot": (-29, 0, 0), "spine1": (11, 0, 0), "spine2": (13, 0, 0), "spine3": (13, 0, 0),
         "neck": (-20, 0, 0), "head": (-20, 0, 0), "shoulder": (0, -40, -62), "elbow": (6, -20, 3),
     },
+    "propped": {  # on the feet and the hands, which were on the floor or soon will be
+        "pelvis": (45, 0, 0), "hip": (-149, 3, 5), "knee": (125, 0, 0), "ankle": (14, 5, -5),
+        "foot": (-34, 0, 0), "spine1": (20, 0, 0), "spine2": (24, 0, 0), "spine3": (24, 0, 0),
+        "neck": (-38, 0, 0), "head": (-45, 0, 0), "collar": (-1, -7, 9),
+        "shoulder": (-38, -65, -35), "elbow": (10, -25, 2), "wrist": (9, -4, 50),
+    },
     "seated": {
         "pelvis": (-12, 0, 0), "hip": (-140, 1, 1), "spine1": (7, 0, 0), "knee": (120, 0, 0),
         "spine2": (8, 0, 0), "ankle": (33, 5, 2), "spine3": (8, 0, 0), "neck": (-3, 0, 0),
@@ -202,7 +211,7 @@ WAYS: dict[str, tuple[str, ...]] = {
     "crouched": (),
     "standing": ("crouched",),
     "seated": ("crouched",),
-    "prone": ("crouched",),
+    "prone": ("propped", "crouched"),
     "lying": ("seated", "crouched"),
     "airborne": ("standing", "crouched"),
 }  # from each posture to where all ways meet
@@ -237,34 +246,53 @@ def bridge(before: Tensor, after: Tensor, fps: float, longest: int | None = None
     """
     ends = [pose.double() for pose in (before[-1], after[0])]
     first, last = (rotation_6d_to_quaternion(pose[:NUM_JOINTS]) for pose in ends)
-    keys = [first, *map(_pose, _between(*map(posture, ends))), last]
+    start, stop = map(posture, ends)
+    names = [start, *_between(start, stop), stop]
+    keys = [first, *map(_pose, names[1:-1]), last]
     total = STEP * (len(keys) - 2) + EDGE
     frames = min(round(total * fps), longest or WHOLE)
     time = torch.arange(frames + 2, dtype=torch.float64) * total / (frames + 1)  # both ends, too
-    turned = keys[0].expand(len(time), -1, -1)
+    # It goes on as it moved at last, comes to rest, and then where it is to be.
+    on = STOPPING * fps * (1 - torch.exp(-time / STOPPING)) * (1 - _eased(time / EDGE))
+    was = rotation_6d_to_quaternion(before[-2:][0, :NUM_JOINTS].double())
+    moving = quaternion_log(quaternion_multiply(quaternion_conjugate(was), first))
+    turned = quaternion_multiply(first, quaternion_exp(on[:, None, None] * moving))
+    shares = list[Tensor]()
     for number, (one, other) in enumerate(pairwise(keys)):
-        share = _eased((time - number * STEP) / EDGE)[:, None, None]
+        shares.append(_eased((time - number * STEP) / EDGE))
         step = quaternion_log(quaternion_multiply(quaternion_conjugate(one), other))
-        turned = quaternion_multiply(turned, quaternion_exp(share * step))
+        turned = quaternion_multiply(turned, quaternion_exp(shares[-1][:, None, None] * step))
     local = quaternion_to_matrix(turned)
     joints = heading_joints(local, torch.zeros_like(time))
+    if "propped" in names:  # tilted such that hands and feet are on the floor, both
+        near = 1 - shares[1] if start == "prone" else shares[-2]
+        up, _, ahead = (_middle(joints, "wrist") - _middle(joints, "foot")).T[[1, 0, 2]]
+        tilt = torch.atan2(up - CLEAR["wrist"] + CLEAR["foot"], ahead)
+        tilt = near**4 * (tilt - tilt[0 if start == "prone" else -1]).clip(-0.6, 0.6)
+        local = torch.cat((axis_angle_to_matrix(0, tilt)[:, None] @ local[:, :1], local[:, 1:]), 1)
+        joints = heading_joints(local, torch.zeros_like(time))
     floor = torch.log((SHARP * (_CLEAR - joints[..., 1])).exp().sum(1)) / SHARP  # pelvis' height
     above = torch.stack([_height(pose) for pose in ends]) - floor[[0, -1]]
     share = _eased(time / total)
     above = above[0] + share * (above[1] - above[0])
     height = floor + above
     low, high = FLOORED
-    feet = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]].mean(1)  # T 3
     carried = ((height - low) / (high - low)).clip(0, 1) * (1 - above / IN_THE_AIR).clip(0, 1)
-    moved = -carried[1:, None] * feet.diff(dim=0) * fps
+    balls = joints[:, [JOINT_INDEX["l_foot"], JOINT_INDEX["r_foot"]]].diff(dim=0) * fps  # T 2 3
+    ankles = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]]  # T 2 3
+    flat = (-ankles[1:, :, 1] / FLAT).exp()  # the lower ankle, of the foot that is flat
+    flat = (flat / flat.sum(1, keepdim=True))[..., None]
+    moved = -carried[1:, None] * (flat * ankles.diff(dim=0)).sum(1) * fps
     made = torch.zeros(frames, before.shape[1], 6, dtype=torch.float64)
     made[:, :NUM_JOINTS] = matrix_to_rotation_6d(local[1:-1])
     root, fading = made[:, ROOT_ROW], torch.exp(-time[1:-1] / STOPPING)
-    root[:, FORWARD] = moved[1:, 2] + fading * ends[0][ROOT_ROW, FORWARD]
-    root[:, LATERAL] = moved[1:, 0] + fading * ends[0][ROOT_ROW, LATERAL]
+    loose = (1 - carried[1:-1]) * fading
+    root[:, FORWARD] = moved[1:, 2] + loose * ends[0][ROOT_ROW, FORWARD]
+    root[:, LATERAL] = moved[1:, 0] + loose * ends[0][ROOT_ROW, LATERAL]
     root[:, YAW_RATE] = fading * ends[0][ROOT_ROW, YAW_RATE]
     root[:, HEIGHT] = height[1:-1]
-    root[:, LEFT_CONTACT:] = (carried[1:-1, None] > 0).double()  # both: neither is the lower one
+    stays = (balls + moved[:, None])[1:, :, [0, 2]].norm(dim=-1) < STAYS  # T 2
+    root[:, LEFT_CONTACT:] = (stays & (carried[1:-1, None] > 0)).double()
     return made.to(before.dtype)
 
 
@@ -286,6 +314,11 @@ def _between(start: str, stop: str) -> list[str]:
     met = next(name for name in there if name in back)
     way = there[: there.index(met) + 1] + back[: back.index(met)][::-1]
     return way[1:-1]
+
+
+def _middle(joints: Tensor, name: str) -> Tensor:
+    """Between a left and a right joint [T,3] of [T,K,3]."""
+    return joints[:, [JOINT_INDEX[f"l_{name}"], JOINT_INDEX[f"r_{name}"]]].mean(1)
 
 
 def _height(pose: Tensor) -> Tensor:
