@@ -28,7 +28,6 @@ SURE = 0.0  # log odds: how sure it must be what a text asks for
 HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
 ABOUT = 180.0  # degrees, which need no side
-SPRINT = 1.5  # times as fast as a run, at most
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
 
@@ -179,7 +178,8 @@ def trimmed(text: str) -> str:
 
 
 def in_tempo(clause: Clause, read: Read) -> Clause:
-    """A clause without the word that says how fast; walks know it, and nobody runs slowly."""
+    """A clause without the word that says how fast; walks know it, and runs that are hastened are
+    none that anybody recorded (experiments, section 76)."""
     words = all_words()
     if clause.steps is not None or (said := words.tempo.search(clause.text)) is None:
         return clause
@@ -187,8 +187,6 @@ def in_tempo(clause: Clause, read: Read) -> Clause:
     own = replace(clause, text=rest)
     own = replace(measured(rest), unheard=clause.unheard) if clause.plain else own
     what = read(own.text)
-    if not (what.surely or (what.action and what.known)):
+    if what.action in GOING or not (what.surely or (what.action and what.known)):
         return clause
-    if what.action in GOING and (what.action != "run" or tempo < 1):
-        return clause
-    return replace(own, tempo=min(tempo, SPRINT) if what.action == "run" else tempo)
+    return replace(own, tempo=tempo)

@@ -13,7 +13,7 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const SPRINT = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
@@ -124,16 +124,14 @@ export class SentenceReader {
     return this.inTempo({ ...clause, text, meanwhile });
   }
 
-  /** A clause without the word that says how fast; walks know it, and nobody runs slowly. */
+  /** A clause without the word that says how fast; walks know it, and runs that are hastened are none that anybody recorded. */
   inTempo(clause) {
     const said = clause.steps === null ? this.first.tempo.exec(clause.text) : null;
     if (!said) return clause;
     const rest = this.without(clause.text, said), tempo = this.tempos[bare(plain(said[0]))];
     const own = isPlain(clause) ? { ...this.measured(rest), unheard: clause.unheard } : { ...clause, text: rest };
-    const what = this.plainRead(own.text), runs = what.action === "run";
-    if (!surely(what) && !(what.action && what.known)) return clause;
-    if (GOING.includes(what.action) && (!runs || tempo < 1)) return clause;
-    return { ...own, tempo: runs ? Math.min(tempo, SPRINT) : tempo };
+    const what = this.plainRead(own.text);
+    return GOING.includes(what.action) || (!surely(what) && !(what.action && what.known)) ? clause : { ...own, tempo };
   }
 
   /** A text, without its subject where only then it is sure what it asks for. */
