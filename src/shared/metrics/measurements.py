@@ -27,6 +27,7 @@ ARM_LENGTH = float(
     np.abs(_OFFSETS[JOINT_INDEX["l_elbow"], 0]) + np.abs(_OFFSETS[JOINT_INDEX["l_wrist"], 0])
 )
 HAND_DOWN = 0.15  # metres above the pelvis, at most, of a hand at rest
+HAND_UP = 0.1  # metres by which one goes up, at least, of arms that do something
 AT_REST = 3  # frames at either end
 _TRUNK = [JOINT_INDEX[name] for name in ("spine1", "spine2", "spine3", "neck", "head")]
 STANDING = 0.92 * (REST_PELVIS_HEIGHT + float(_OFFSETS[_TRUNK, 1].sum()))  # metres, of the head
@@ -51,7 +52,7 @@ def arms_alone(motion: Motion) -> bool:
     joints = motion.positions().astype(np.float64)
     feet = joints[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]]
     stands = np.ptp(feet, axis=0).max() < 0.2 and np.ptp(joints[:, JOINT_INDEX["head"], 1]) < 0.15
-    return bool(stands) and bool(np.ptp(_hand_heights(motion), axis=0).max() > HAND_DOWN)
+    return bool(stands) and bool(np.ptp(_hand_heights(motion), axis=0).max() > HAND_UP)
 
 
 def stays(motion: Motion) -> bool:
