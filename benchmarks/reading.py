@@ -28,7 +28,7 @@ from src.shared.evaluation.actions import same_action
 from src.shared.model.clip.out_of_domain import TWINS, words_of
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.pipelines.clause import Clause
-from src.shared.pipelines.sentence import SITS
+from src.shared.pipelines.sentence import RISEN, SITS
 from src.shared.pipelines.text import SentenceGenerator
 from src.shared.pipelines.words import STANDS
 
@@ -49,7 +49,7 @@ def is_read(wanted: str, found: str | None) -> bool:
 
 def is_wait(clause: Clause) -> bool:
     """Whether somebody only stands, or sits before getting up, in a clause."""
-    return clause.seconds is not None and clause.text in (STANDS, SITS)
+    return clause.seconds not in (None, RISEN) and clause.text in (STANDS, SITS)
 
 
 def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
@@ -60,7 +60,12 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
         if kind == "free":
             continue
         clauses = [each for each in sentences.clauses(text) if not is_wait(each)]
-        readings = sentences.generator.read([clause.text for clause in clauses])
+        before = ["", *(clause.text for clause in clauses)]
+        texts = [
+            each.meanwhile if each.meanwhile and each.text == was else each.text
+            for was, each in zip(before, clauses, strict=False)
+        ]  # of who stays seated
+        readings = sentences.generator.read(texts)
         found = [each.nearest[0] if each and each.nearest else None for each in readings]
         if kind == "two-sides":
             groups[kind].append(len(clauses) == 1 and clauses[0].meanwhile != "")

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from .words import (
     ARRIVES,
+    CJK_SIGN,
     EDGES,
     MAX_COUNT,
     MOST,
@@ -27,6 +28,8 @@ from .words import (
 SURE = 0.0  # log odds: how sure it must be what a text asks for
 HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
+ONCE = 5.0  # seconds in which most is done once, at most
+BRISK = 1.3  # times as fast as usual, at most, of a walk
 ABOUT = 180.0  # degrees, which need no side
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
@@ -84,6 +87,11 @@ class Clause:
     held: bool = False
     tempo: float = 1.0
     unheard: str = ""
+
+    def lasting(self, seconds: float) -> float:
+        """Seconds in which it is shown, of those that are asked for: who is slow takes longer, who
+        is fast is done sooner; what lasts is as long as it is asked for."""
+        return seconds / self.tempo if seconds <= ONCE else seconds
 
     @property
     def far(self) -> bool:
@@ -177,16 +185,25 @@ def trimmed(text: str) -> str:
     return all_words().loose.sub("", text.strip(EDGES)).strip(EDGES)
 
 
-def in_tempo(clause: Clause, read: Read) -> Clause:
-    """A clause without the word that says how fast; walks know it, and runs that are hastened are
-    none that anybody recorded (experiments, section 76)."""
+def without_tempo(text: str) -> tuple[str, float]:
+    """A text without the word that says how fast, and how many times as fast that is."""
     words = all_words()
-    if clause.steps is not None or (said := words.tempo.search(clause.text)) is None:
+    if (said := words.tempo.search(text)) is None:
+        return text, 1.0
+    rest = without(text, said)  # no blank is left where writing has none
+    rest = re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", rest)
+    return rest, words.tempos[bare(plain_text(said[0]))]
+
+
+def in_tempo(clause: Clause, read: Read) -> Clause:
+    """A clause that has its tempo, where it is known what is done; a run has but one, for one that
+    is hastened is none that anybody recorded (experiments, section 76)."""
+    rest, tempo = without_tempo(clause.text)
+    if clause.steps is not None or rest == clause.text:
         return clause
-    rest, tempo = without(clause.text, said), words.tempos[bare(plain_text(said[0]))]
     own = replace(clause, text=rest)
     own = replace(measured(rest), unheard=clause.unheard) if clause.plain else own
     what = read(own.text)
-    if what.action in GOING or not (what.surely or (what.action and what.known)):
+    if not (what.surely or (what.action and what.known)):
         return clause
-    return replace(own, tempo=tempo)
+    return replace(own, tempo={"walk": min(tempo, BRISK), "run": 1.0}.get(what.action or "", tempo))

@@ -34,7 +34,7 @@ from ..motion.features import (
     integrate_root,
 )
 from ..motion.motion import Motion, resample_motion
-from ..motion.postprocess.stitching import place_of
+from ..motion.postprocess.stitching import blend_boundaries, place_of
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
 from ..motion.trajectory import FPS
@@ -253,6 +253,28 @@ def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) ->
         if joints & set(LEGS) and features.shape[1] > ROOT_ROW:
             known[start:stop, ROOT_ROW, LEFT_CONTACT:] = False
     return Constraint(features, known, shown=shown)
+
+
+def beside(
+    generator: TextToMotion,
+    text: str,
+    features: Tensor,
+    span: tuple[int, int],
+    joints: set[str],
+    sampling: Sampling,
+    copy: bool,
+) -> Tensor:
+    """Features [T,R,6] in which some joints do what a text says in a span of frames: filled in, or
+    a `copy` of what it does alone, where they would hardly move."""
+    start, stop = span
+    if not copy:
+        return fill_free(generator, text, all_but(features, start, stop, joints), sampling)
+    alone = torch.cat(list(stream_features(generator, [Passage(text, stop - start)], sampling)))
+    features, kept = features.clone(), torch.ones_like(features, dtype=torch.bool)
+    for row in (JOINT_INDEX[joint] for joint in joints):
+        features[start:stop, row] = alone[:, row]
+        kept[start:stop, row] = False
+    return blend_boundaries(features, kept)
 
 
 def held(

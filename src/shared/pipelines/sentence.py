@@ -24,6 +24,7 @@ from .clause import (
     measured,
     trimmed,
     without,
+    without_tempo,
 )
 from .words import (
     ARRIVES,
@@ -46,8 +47,10 @@ from .words import (
 SURE_AT_MARK, SURE_IF_SAID = -14.0, -2.0
 SITS, SQUATS = "sits", "squats down"
 BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
+RISEN = 1.5  # seconds that one who got up stands before the next thing
 HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
+SEATED = LOW | {"sit-floor"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
 MOST_PIECES = 8  # between commas, that may be one part
 
@@ -78,7 +81,11 @@ def clauses(
 
     def known(text: str) -> Reading:
         own = (own for name, (own, _) in PLAINLY.items() if _says(name, text, read))
-        return next(own, None) or read(_bared(text, read))
+        found = next(own, None) or read(_bared(text, read))
+        if found.surely is None and (rest := without_tempo(text)[0]) not in ("", text):
+            paced = known(rest)  # how fast is no part of what is done
+            return paced if paced.surely else found
+        return found
 
     for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
         (pieces, unheard), last = _joined(whole, known, strange), found[-1] if found else None
@@ -90,7 +97,7 @@ def clauses(
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
         found[-1] = replace(found[-1], unheard=unheard)
-    found = [clause for clause in found if clause.text] or [Clause(sentence)]
+    found = [in_tempo(clause, known) for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
     waits = first == STANDS and len(found) == 2  # "gets up after three seconds"
     if words.downs.match(first) and known(first).action in LOW:
@@ -98,7 +105,21 @@ def clauses(
     elif _says("ups", found[waits].text, read) and read(SITS).action in LOW:
         sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
         found[:waits] = [sits]
-    return [_plainly(each, read, alone=len(found) == 1) for each in found]
+    found = [_plainly(each, read, alone=len(found) == 1) for each in found]
+    for at in range(1, len(found)):
+        before, clause = found[at - 1], found[at]
+        if clause.text == STANDS and clause.seconds is None and at < len(found) - 1:
+            found[at] = replace(clause, seconds=RISEN)
+        elif known(before.text).action in SEATED and known(clause.text).arms:
+            found[at] = _seated(before, clause)
+    return found
+
+
+def _seated(before: Clause, clause: Clause) -> Clause:
+    """What the arms do of who sits or kneels: he goes on to."""
+    if clause.meanwhile or clause.far or clause.held:
+        return clause
+    return replace(clause, text=before.text, meanwhile=clause.text, side=side_of(clause.text))
 
 
 def _says(name: str, text: str, read: Read) -> bool:
@@ -120,7 +141,7 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     spot = place_kept(text) if clause.metres is clause.degrees is None else None
     if spot and read(rest := without(text, spot)).surely in GOING:
         text, clause = rest, replace(clause, metres=0.0)
-    return in_tempo(replace(clause, text=text, meanwhile=arms), read)
+    return replace(clause, text=text, meanwhile=arms)
 
 
 def _bared(text: str, read: Read) -> str:

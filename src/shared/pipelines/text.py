@@ -45,7 +45,7 @@ from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
 from .clause import GOING, Clause, Reading
-from .edit import ControlledMotion, all_but, chosen_joints, fill_free, held
+from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import (
     TURN_REST,
     DrawnPath,
@@ -58,7 +58,7 @@ from .path import (
     time_path,
     turned,
 )  # fmt: skip
-from .sentence import clauses, whole
+from .sentence import SEATED, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
@@ -471,8 +471,8 @@ class SentenceGenerator:
         for (start, stop), part in zip(spans, parts, strict=True):
             if part.meanwhile:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
-                rest = all_but(features, start, stop, joints)
-                features = fill_free(self.generator, part.meanwhile, rest, sampling)
+                args = part.meanwhile, features, (start, stop), joints, sampling
+                features = beside(self.generator, *args, self._nearest(part.text) in SEATED)
         shown, end = list[Tensor](), 0
         for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None
@@ -518,8 +518,8 @@ class SentenceGenerator:
         given, pace = None, self._pace(clause)
         if clause.seconds is not None:
             seconds, clause = clause.seconds, replace(clause, seconds=clause.seconds * pace)
-        elif pace < 1:  # who is slow takes longer
-            seconds = max(seconds, min(seconds, ONCE[1]) / pace)
+        else:
+            seconds = clause.lasting(seconds)
         frames = max(1, round(max(1, round(seconds * fps)) * pace))
         passage, seconds = Passage(clause.text, frames, tag, timed=exactly), seconds * pace
         exactly = exactly and frames

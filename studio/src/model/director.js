@@ -6,9 +6,9 @@ import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
-import { allBut, chosenJoints, fill, fillFree, held, keepEnds, NO_TEXT, redo } from "./edit.js";
+import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isPlain, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, isPlain, lasting, plain, plainClause, SEATED, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -192,7 +192,8 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.meanwhile) {
         const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
-        features = await fillFree(this.sampler, part.meanwhile, allBut(features, ...spans[i], joints), seed);
+        const seated = SEATED.includes(this.nearest(part.text)), alone = { text: part.meanwhile, frames: spans[i][1] - spans[i][0] };
+        features = await beside(this.sampler, alone, features, spans[i][0], joints, seed, seated);
       }
     const shown = [], joined = () => shown.reduce((sum, piece) => sum + framesOf(piece), 0);
     let end = 0;
@@ -251,7 +252,7 @@ export class Director {
     if (clause.seconds !== null) {
       seconds = clause.seconds;
       clause = { ...clause, seconds: seconds * pace };
-    } else if (pace < 1) seconds = Math.max(seconds, Math.min(seconds, ONCE[1]) / pace); // who is slow takes longer
+    } else seconds = lasting(clause, seconds);
     const frames = Math.max(1, round(Math.max(1, round(seconds * FPS)) * pace));
     seconds *= pace;
     if (exactly !== null) exactly = frames;

@@ -2,6 +2,7 @@
 
 import { turnAboutY } from "../body/rotations.js";
 import { round } from "../body/curves.js";
+import { blendBoundaries } from "../body/whole.js";
 import {
   cut, decodeFeatures, encodeFeatures, FORWARD, framesOf, headingsOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, ORIGIN,
   placeOf, ROOT, WIDTH, YAW_RATE,
@@ -86,6 +87,20 @@ export async function fill(sampler, text, given, seed, options) {
   if (!given.rejoin) return { features, known: given.constraint.known };
   const bent = bendBack(features, given);
   return { features: await fillFree(sampler, text, bent, seed, options), known: bent.known };
+}
+
+/** Features in which, from `start` on, some joints do what a passage says: filled in, or a copy of what it does alone, where they would hardly move. */
+export async function beside(sampler, passage, features, start, joints, seed, copy) {
+  const stop = start + passage.frames;
+  if (!copy) return fillFree(sampler, passage.text, allBut(features, start, stop, joints), seed);
+  const alone = await streamFeatures(sampler, [passage], seed), copied = features.slice(), kept = new Uint8Array(features.length).fill(1);
+  for (let t = start; t < stop; t++)
+    for (const name of joints) {
+      const row = INDEX[name] * 6, from = (t - start) * WIDTH + row, to = t * WIDTH + row;
+      copied.set(alone.subarray(from, from + 6), to);
+      kept.fill(0, to, to + 6);
+    }
+  return blendBoundaries(copied, kept);
 }
 
 /** Only the frames around what is not known go through the network. */

@@ -10,16 +10,19 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
   bends: [{ action: "turn", certainty: 3, arms: false }, "turns left"],
   posed: [{ action: "raise", certainty: 3, arms: true }, "raises both arms"],
 };
-export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"];
+export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const BRISK = 1.3, ONCE = 5, RISEN = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
 export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false, tempo: 1, unheard: "" });
+
+/** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
+export const lasting = ({ tempo }, seconds) => (seconds <= ONCE ? seconds / tempo : seconds);
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
@@ -69,7 +72,11 @@ export class SentenceReader {
     const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
     const known = (text) => {
       const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
-      return name ? PLAINLY[name][0] : read(this.bared(text));
+      const found = name ? PLAINLY[name][0] : read(this.bared(text));
+      if (surely(found)) return found;
+      const { rest } = this.withoutTempo(text); // how fast is no part of what is done
+      const paced = rest && rest !== text ? known(rest) : found;
+      return surely(paced) ? paced : found;
     };
     Object.assign(this, words, { learned, plainRead: read, read: known, strange });
     this.first = {}; this.each = {}; this.head = {}; this.entire = {}; this.there = {};
@@ -96,7 +103,7 @@ export class SentenceReader {
       }
       found.push({ ...found.pop(), unheard });
     }
-    let real = found.filter((clause) => clause.text);
+    let real = found.filter((clause) => clause.text).map((clause) => this.inTempo(clause));
     if (!real.length) real = [plainClause(sentence)];
     const { text: first } = real[0], stands = this.learned("ups");
     if (this.first.downs.test(first) && LOW.includes(this.read(first).action)) real.unshift({ ...plainClause(STANDS), seconds: BEFORE });
@@ -104,7 +111,19 @@ export class SentenceReader {
       if (this.first.ups.test(first)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
       else if (first === STANDS && real.length === 2 && this.first.ups.test(real[1].text)) real[0] = { ...real[0], text: SITS }; // "gets up after three seconds"
     }
-    return real.map((each) => this.inPlainWords(each, real.length === 1));
+    real = real.map((each) => this.inPlainWords(each, real.length === 1));
+    for (let at = 1; at < real.length; at++) {
+      const [before, clause] = real.slice(at - 1, at + 1);
+      if (clause.text === STANDS && clause.seconds === null && at < real.length - 1) real[at] = { ...clause, seconds: RISEN };
+      else if (SEATED.includes(this.read(before.text).action) && this.read(clause.text).arms) real[at] = this.seated(before, clause);
+    }
+    return real;
+  }
+
+  /** What the arms do of who sits or kneels: he goes on to. */
+  seated(before, clause) {
+    if (clause.meanwhile || clause.held || isFar(clause)) return clause;
+    return { ...clause, text: before.text, meanwhile: clause.text, side: this.sideOf(clause.text) };
   }
 
   /** A clause in words of the tower; a bend that is all there is may be a walk. */
@@ -119,19 +138,27 @@ export class SentenceReader {
     const spot = clause.metres === null && clause.degrees === null ? this.placeKept(text) : null;
     if (spot) {
       const rest = this.without(text, spot);
-      if (GOING.includes(surely(this.plainRead(rest)))) return this.inTempo({ ...clause, text: rest, meanwhile, metres: 0 });
+      if (GOING.includes(surely(this.plainRead(rest)))) return { ...clause, text: rest, meanwhile, metres: 0 };
     }
-    return this.inTempo({ ...clause, text, meanwhile });
+    return { ...clause, text, meanwhile };
   }
 
-  /** A clause without the word that says how fast; walks know it, and runs that are hastened are none that anybody recorded. */
+  /** A text without the word that says how fast, and how many times as fast that is. */
+  withoutTempo(text) {
+    const said = this.first.tempo.exec(text);
+    if (!said) return { rest: text, tempo: 1 };
+    const rest = this.without(text, said).replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, "");
+    return { rest, tempo: this.tempos[bare(plain(said[0]))] };
+  }
+
+  /** A clause that has its tempo, where it is known what is done; a run has but one, for one that is hastened is none that anybody recorded. */
   inTempo(clause) {
-    const said = clause.steps === null ? this.first.tempo.exec(clause.text) : null;
-    if (!said) return clause;
-    const rest = this.without(clause.text, said), tempo = this.tempos[bare(plain(said[0]))];
+    const { rest, tempo } = this.withoutTempo(clause.text);
+    if (clause.steps !== null || rest === clause.text) return clause;
     const own = isPlain(clause) ? { ...this.measured(rest), unheard: clause.unheard } : { ...clause, text: rest };
-    const what = this.plainRead(own.text);
-    return GOING.includes(what.action) || (!surely(what) && !(what.action && what.known)) ? clause : { ...own, tempo };
+    const what = this.read(own.text);
+    if (!surely(what) && !(what.action && what.known)) return clause;
+    return { ...own, tempo: { walk: Math.min(tempo, BRISK), run: 1 }[what.action] ?? tempo };
   }
 
   /** A text, without its subject where only then it is sure what it asks for. */

@@ -118,7 +118,7 @@ def test_words_of_order_part_clauses(sentence: str, parts: list[str]):
         ("walks, not jumping", ["walks, not jumping"]),
         ("jumps before the bow", ["jumps", "the bow"]),
         ("nach der letzten Note verbeugt er sich", ["nach der letzten Note verbeugt er sich"]),
-        ("walk slowly, sadly", ["walk slowly, sadly"]),
+        ("walk slowly, sadly", ["walk, sadly"]),
         ("walks on, hangs a left, bows", ["walks on", "turns left", "bows"]),
         ("er geht los und biegt rechts ab", ["er geht los", "turns right"]),
         ("歩いて、左折して、お辞儀する", ["歩いて", "turns left", "お辞儀する"]),
@@ -289,9 +289,10 @@ def test_each_clause_has_its_own_measures():
         ("快速地鞠躬", Clause("鞠躬", tempo=1.5)),
         ("quickly turn around", Clause("turn around", degrees=180.0, tempo=1.5)),
         ("bow slowly for five seconds", Clause("bow", seconds=5.0, tempo=0.6)),
-        ("walks slowly", Clause("walks slowly")),  # which the network knows
-        ("runs slowly", Clause("jogs")),
-        ("runs as fast as he can", Clause("runs as fast as he can")),
+        ("walks slowly", Clause("walks", tempo=0.6)),
+        ("walks as fast as he can", Clause("walks", tempo=1.3)),
+        ("runs slowly", Clause("runs")),
+        ("runs as fast as he can", Clause("runs")),
         ("moves quickly", Clause("moves quickly")),  # nobody can say what
     ],
 )
@@ -318,9 +319,7 @@ def test_ways_and_turns_of_their_own_measure_are_clauses_of_their_own():
 
     there = [Clause("steps forward", steps=3), Clause("steps back", steps=2)]
     assert clauses("three steps forward, two steps back", walks) == there
-    assert [clause.text for clause in clauses("walks slowly, sadly", walks)] == [
-        "walks slowly, sadly"
-    ]
+    assert [clause.text for clause in clauses("walks slowly, sadly", walks)] == ["walks, sadly"]
 
 
 @pytest.mark.parametrize(
