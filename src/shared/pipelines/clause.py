@@ -29,7 +29,7 @@ SURE = 0.0  # log odds: how sure it must be what a text asks for
 HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
 ONCE = 5.0  # seconds in which most is done once, at most
-BRISK = 1.3  # times as fast as usual, at most, of a walk
+PACES = {"walk": (0.4, 1.3), "run": (0.8, 1.4)}  # times as fast as usual, at least and at most
 ABOUT = 180.0  # degrees, which need no side
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
@@ -186,24 +186,26 @@ def trimmed(text: str) -> str:
 
 
 def without_tempo(text: str) -> tuple[str, float]:
-    """A text without the word that says how fast, and how many times as fast that is."""
+    """A text without the word that says how fast, and how many times as fast that is; as it is
+    where two say otherwise ("quick, quick, slow")."""
     words = all_words()
-    if (said := words.tempo.search(text)) is None:
+    found = {words.tempos[bare(plain_text(said[0]))] for said in words.tempo.finditer(text)}
+    if len(found) != 1 or (said := words.tempo.search(text)) is None:
         return text, 1.0
     rest = without(text, said)  # no blank is left where writing has none
-    rest = re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", rest)
-    return rest, words.tempos[bare(plain_text(said[0]))]
+    return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", rest), found.pop()
 
 
 def in_tempo(clause: Clause, read: Read) -> Clause:
-    """A clause that has its tempo, where it is known what is done; a run has but one, for one that
-    is hastened is none that anybody recorded (experiments, section 76)."""
+    """A clause that has its tempo, where what is done is read without that word, and no other thing
+    is than with it."""
     rest, tempo = without_tempo(clause.text)
     if clause.steps is not None or rest == clause.text:
         return clause
     own = replace(clause, text=rest)
     own = replace(measured(rest), unheard=clause.unheard) if clause.plain else own
-    what = read(own.text)
-    if not (what.surely or (what.action and what.known)):
+    what, said = read(own.text), read(clause.text)
+    if not (what.surely or (what.action and what.known)) or said.surely not in (None, what.action):
         return clause
-    return replace(own, tempo={"walk": min(tempo, BRISK), "run": 1.0}.get(what.action or "", tempo))
+    least, most = PACES.get(what.action or "", (0.0, math.inf))
+    return replace(own, tempo=min(max(tempo, least), most))

@@ -111,20 +111,19 @@ class Words:
 
         numbers: dict[str, int] = {}
         adverbs: dict[str, int] = {}
-        angles: dict[str, float] = {}
         sides: dict[str, list[str]] = {}
         for table in tables:
             numbers |= {word: i for i, word in enumerate(table["numbers"], 1)}
             numbers |= table["more_numbers"]
             adverbs |= {word: i for i, word in enumerate(table.get("often", []), 1)}
-            angles |= table["angles"]
             sides |= table.get("other", {})
         self.numbers = {bare(word): value for word, value in numbers.items()}
         self.adverbs = {bare(word): value for word, value in adverbs.items()}
-        self.angles = {
-            bare(word.rpartition("|")[2].rstrip("$")): float(value)
-            for word, value in angles.items()
-        }
+        self.angles, self.tempos = (
+            {bare(word.rpartition("|")[2].rstrip("$")): float(value)
+             for table in tables for word, value in table[key].items()}
+            for key in ("angles", "tempos")
+        )  # fmt: skip
         joints = all_of("and")
         self.comma = re.compile(rf"\s*{_COMMAS}\s*")
         self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
@@ -175,7 +174,7 @@ class Words:
         )
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
-        self.angle = re.compile(_any(angles), re.I)
+        self.angle = re.compile(_any(all_of("angles")), re.I)
         self.often = re.compile(_any(adverbs), re.I)
         number = rf"(?P<number>{_DIGITS}|{_any(numbers)})"
         ready = rf"(?:(?<![\w.])(?<!\d,)|(?<={CJK_SIGN}))"
@@ -291,7 +290,6 @@ class Words:
         self.in_place, self.off, self.many, self.crouches, self.head_turns, self.tempo = (
             Rare(_any(all_of(key)), all_of(key)) for key in keys
         )
-        self.tempos = {bare(said): by for t in tables for said, by in t["tempos"].items()}
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
         several = [word for word, value in numbers.items() if value > 1]

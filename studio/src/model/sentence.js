@@ -13,7 +13,7 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const BRISK = 1.3, ONCE = 5, RISEN = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, RISEN = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
@@ -143,22 +143,23 @@ export class SentenceReader {
     return { ...clause, text, meanwhile };
   }
 
-  /** A text without the word that says how fast, and how many times as fast that is. */
+  /** A text without the word that says how fast, and how many times as fast that is; as it is where two say otherwise ("quick, quick, slow"). */
   withoutTempo(text) {
-    const said = this.first.tempo.exec(text);
-    if (!said) return { rest: text, tempo: 1 };
-    const rest = this.without(text, said).replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, "");
-    return { rest, tempo: this.tempos[bare(plain(said[0]))] };
+    const found = new Set([...text.matchAll(this.each.tempo)].map(([said]) => this.tempos[bare(plain(said))]));
+    if (found.size !== 1) return { rest: text, tempo: 1 };
+    const rest = this.without(text, this.first.tempo.exec(text));
+    return { rest: rest.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""), tempo: [...found][0] };
   }
 
-  /** A clause that has its tempo, where it is known what is done; a run has but one, for one that is hastened is none that anybody recorded. */
+  /** A clause that has its tempo, where what is done is read without that word, and no other thing is than with it. */
   inTempo(clause) {
     const { rest, tempo } = this.withoutTempo(clause.text);
     if (clause.steps !== null || rest === clause.text) return clause;
     const own = isPlain(clause) ? { ...this.measured(rest), unheard: clause.unheard } : { ...clause, text: rest };
-    const what = this.read(own.text);
-    if (!surely(what) && !(what.action && what.known)) return clause;
-    return { ...own, tempo: { walk: Math.min(tempo, BRISK), run: 1 }[what.action] ?? tempo };
+    const what = this.read(own.text), said = surely(this.read(clause.text));
+    if ((!surely(what) && !(what.action && what.known)) || (said && said !== what.action)) return clause;
+    const [least, most] = PACES[what.action] ?? [0, Infinity];
+    return { ...own, tempo: Math.min(Math.max(tempo, least), most) };
   }
 
   /** A text, without its subject where only then it is sure what it asks for. */

@@ -291,8 +291,10 @@ def test_each_clause_has_its_own_measures():
         ("bow slowly for five seconds", Clause("bow", seconds=5.0, tempo=0.6)),
         ("walks slowly", Clause("walks", tempo=0.6)),
         ("walks as fast as he can", Clause("walks", tempo=1.3)),
-        ("runs slowly", Clause("runs")),
-        ("runs as fast as he can", Clause("runs")),
+        ("runs slowly", Clause("runs", tempo=0.8)),
+        ("quick quick slow squat", Clause("quick quick slow squat")),  # which of them
+        ("er verbeugt sich fast nicht", Clause("er verbeugt sich fast nicht")),
+        ("runs as fast as he can", Clause("runs", tempo=1.4)),
         ("moves quickly", Clause("moves quickly")),  # nobody can say what
     ],
 )
