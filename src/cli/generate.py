@@ -222,6 +222,8 @@ def controlled(request: Request) -> dict[str, Any]:
     rows = files.write_motions([made.motion], [place])
     rows[0] |= {"seed": request.seed, "directions": request.given(), "errors": made.errors}
     rows[0] |= {"warning": "; ".join(filter(None, [*warnings, made.warning])) or None}
+    if request.kind == "timeline" and plain:
+        rows[0] |= {"clauses": [x.said for t in texts for x in generator.sentences.clauses(t)]}
     clock.lap("write")
     return told_of_text(request, generator) | results(rows, clock)
 

@@ -457,8 +457,12 @@ def read_prompts(path: Path) -> tuple[list[str], list[float | None], list[str | 
 def checked_prompts(prompts: list[str] | None) -> list[str]:
     """The prompts without stray blanks; at least one, none without words."""
     cleaned = [" ".join(text.split()) for text in prompts or []]
-    if not cleaned or not all(cleaned):
+    if not cleaned or not cleaned[0]:
         raise UsageError('--prompt is missing or empty; give one, e.g. --prompt "a person waves"')
+    if not all(cleaned):
+        number = cleaned.index("") + 1
+        raise UsageError(f"text {number} of {len(cleaned)} is empty; say what is done, or leave out"
+                         " its --prompt or --then")  # fmt: skip
     if wordless := [text for text in cleaned if not has_words(text)]:
         raise UsageError(f"prompt {wordless[0]!r} holds no word; say in a few what is done")
     return cleaned

@@ -109,10 +109,10 @@ def stream(
                 complain(f"warning: {warning}")
 
     def listen() -> None:
-        before = -math.inf
+        before, began = -math.inf, time.monotonic()
         for came, line in _as_they_come():
-            if came - before < AT_ONCE and not sys.stdin.isatty():
-                body.wait(AFTER)  # so that each line of a file is seen
+            if 0 < before < began or (came - before < AT_ONCE and not sys.stdin.isatty()):
+                body.wait(AFTER)  # so that each line of a file is seen, or typed while it loaded
             before = came
             say(line)
         if seconds is None and websocket is None:

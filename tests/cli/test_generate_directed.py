@@ -82,7 +82,7 @@ def test_ends_and_edits(model: str, clip: str, tmp_path: Path) -> None:
     [
         (("--then", "a person waves"), "--prompt is missing"),
         ((*WALK, *WALK, "--then", "x"), "--prompt is given 2 times"),
-        ((*WALK, "--then", " "), "--prompt is missing or empty"),
+        ((*WALK, "--then", " "), "text 2 of 2 is empty"),
         ((*WALK, "--timeline", "t.yaml"), "--prompt does not go with --timeline"),
         (("--timeline", "t.yaml", "--then", "x"), "--timeline does not go with --then"),
         (("--timeline", "t.yaml", "--seconds", "3"), "--seconds does not go with --timeline"),

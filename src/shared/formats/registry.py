@@ -54,7 +54,10 @@ CLIP_EXPORTERS: dict[str, Callable[[RigClip, Path], Path]] = {
     **dict.fromkeys(("usd", "usda", "usdc"), _lazy("writers.usd", "write_usd_clip")),
 }
 # What a format needs beside this program; raises UserError where it is missing.
-NEEDS: dict[str, Callable[[], Any]] = {"fbx": _lazy("blender", "find_blender")}
+NEEDS: dict[str, Callable[[], Any]] = {
+    "fbx": _lazy("blender", "find_blender"),
+    "mp4": _lazy("preview.figures", "find_av"),
+}
 _trajectory_npz = _lazy("arrays", "write_trajectory_npz")
 _trajectory_csv = _lazy("csv_files", "write_trajectory_csv")
 _trajectory_glb = _lazy("writers.glb", "write_trajectory_glb")

@@ -170,7 +170,9 @@ def _counted(clause: Clause) -> Clause:
         number = int(value_of(next(filter(None, match.groups()))))
     else:
         return clause
-    rest = without(clause.text, match) if 1 < number <= MAX_COUNT else ""
+    rest = without(clause.text, match) if number > 1 else ""
+    if number > MAX_COUNT:  # nobody means it: it is told that nothing is made of it
+        return replace(clause, text=rest, unheard=match[0]) if rest else clause
     return replace(clause, text=rest, count=number) if rest else clause
 
 

@@ -96,7 +96,7 @@ def clauses(
             clause = pair or _parted(first, known) or measured(first)
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
-        found[-1] = replace(found[-1], unheard=unheard)
+        found[-1] = replace(found[-1], unheard=unheard or found[-1].unheard)
     found = [in_tempo(clause, known) for clause in found if clause.text] or [Clause(sentence)]
     first = found[0].text
     waits = first == STANDS and len(found) == 2  # "gets up after three seconds"

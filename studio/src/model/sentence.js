@@ -101,7 +101,8 @@ export class SentenceReader {
         last = null;
         pieces = pair ? others.slice(1) : others;
       }
-      found.push({ ...found.pop(), unheard });
+      const tail = found.pop();
+      found.push({ ...tail, unheard: unheard || tail.unheard });
     }
     let real = found.filter((clause) => clause.text).map((clause) => this.inTempo(clause));
     if (!real.length) real = [plainClause(sentence)];
@@ -564,9 +565,9 @@ export class SentenceReader {
       if (!match) return clause;
       number = Math.trunc(this.value(match.groups.number ?? match.groups.after));
     }
-    if (!(number > 1 && number <= this.maxCount)) return clause;
-    const rest = this.without(clause.text, match);
-    return rest ? { ...clause, text: rest, count: number } : clause;
+    const rest = number > 1 ? this.without(clause.text, match) : "";
+    if (!rest) return clause;
+    return number > this.maxCount ? { ...clause, text: rest, unheard: match[0] } : { ...clause, text: rest, count: number };
   }
 
   value(text) {

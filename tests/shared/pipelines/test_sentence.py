@@ -315,6 +315,10 @@ def test_what_nobody_means_is_left_to_the_words(sentence: str):
     assert clauses(sentence)[0].plain
 
 
+def test_a_number_that_nobody_means_is_not_heard():
+    assert clauses("jump 1000 times") == [Clause("jump", unheard="1000 times")]
+
+
 def test_ways_and_turns_of_their_own_measure_are_clauses_of_their_own():
     def walks(text: str) -> Reading:
         return Reading("walk", 1.0)

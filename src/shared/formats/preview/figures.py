@@ -7,6 +7,7 @@ the motion's own and plays in real time. MP4 (H.264, plays anywhere) needs PyAV.
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -235,6 +236,13 @@ def _palette(first: Image.Image) -> Image.Image:
     return sheet.quantize(GIF_COLOURS, dither=Image.Dither.NONE)
 
 
+def find_av(where: str | Path = "the film") -> None:
+    """Raises UserError where PyAV is not installed, which films are written with."""
+    if find_spec("av") is None:
+        raise UserError(f"cannot write {where}: MP4 needs PyAV; install it with: pip install av, "
+                        "or write a .gif")  # fmt: skip
+
+
 def write_mp4(
     motion: Motion,
     path: str | Path,
@@ -252,11 +260,9 @@ def write_mp4(
         UserError: PyAV is not installed, too long, the song cannot be read, or the file cannot be
             written.
     """
-    try:
-        import av
-    except ImportError as error:
-        raise UserError(f"cannot write {path}: MP4 needs PyAV; install it with: pip install av, "
-                        "or write a .gif") from error  # fmt: skip
+    find_av(path)
+    import av
+
     motion = motion if motion.fps <= MAX_FPS else resample_motion(motion, MAX_FPS)
     _check(motion, path, "mp4")
     with atomic_write(Path(path)) as temporary:
