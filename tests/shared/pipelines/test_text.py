@@ -195,6 +195,33 @@ def test_what_is_said_to_be_slow_or_fast_is(starter: TextToMotion):
     assert sentences.timeline(Timeline(passages), Sampling()).num_frames == 124
 
 
+@pytest.mark.parametrize(
+    ("text", "height"),
+    [("a person sits and waves", 0.65), ("kneels, then waves", 0.55),
+     ("sits down on the floor, then waves", 0.2)],
+)  # fmt: skip
+def test_who_sits_or_kneels_stays_so_while_the_arms_do_something(
+    starter: TextToMotion, text: str, height: float
+):
+    sentences = SentenceGenerator(starter)
+    assert sentences.clauses(text)[-1].meanwhile == "waves"
+    [motion] = sentences.generate([text])
+    joints = motion.positions()[-90:-15]
+    assert joints[:, JOINT_INDEX["pelvis"], 1].max() < height
+    hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
+    assert (hands - joints[:, [JOINT_INDEX["pelvis"]], 1]).max() > 0.55  # as high as the head
+
+
+def test_who_walks_may_have_the_hands_on_the_hips(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    [motion] = sentences.generate(["walks with hands on hips"])
+    assert np.hypot(*motion.root_position[-1, [0, 2]]) > 2  # it stood
+    joints = motion.positions()[45:75]
+    for side in "lr":
+        shoulder, wrist = (joints[:, JOINT_INDEX[f"{side}_{n}"]] for n in ("shoulder", "wrist"))
+        assert np.linalg.norm(wrist - shoulder, axis=-1).mean() < 0.45  # .49 where it hangs
+
+
 def test_claps_are_shown_twice_as_fast_as_they_are_made(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     for text, count in (("claps twice", 2), ("claps three times", 3), ("claps four times", 4)):
