@@ -60,7 +60,7 @@ def hastened(features: Tensor, times: float, frames: int | None = None) -> Tenso
     both, and it goes as far as they do."""
     if frames is None:
         frames = max(1, round(len(features) / times))
-    if times == 1 and frames == len(features):
+    if not len(features) or (times == 1 and frames == len(features)):
         return features
     values, last = features.cpu().numpy().astype(np.float64), len(features) - 1
     at = np.arange(frames + 1) * (len(features) / frames)

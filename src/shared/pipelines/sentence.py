@@ -451,6 +451,7 @@ def _pair(left: str, right: str, read: Read, sure: float) -> _Pair | None:
     halves = [
         trimmed(words.meanwhile.sub(" ", words.throughout.sub(" ", half))) for half in (left, right)
     ]
+    halves = [words.dangling.sub("", half) for half in halves]  # "walks with"
     if any(words.limb.search(half) for half in halves):  # which nothing is said of
         return None
     first, second = [read(measured(half).text) for half in halves]

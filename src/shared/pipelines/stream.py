@@ -52,6 +52,9 @@ class Passage:
             the one before showed, and tries its noise first.
         miss: of its frames so far; a window is sampled again, TRIES times at most, while they are
             not what is wanted.
+        timed: frames in which it is shown, where its time is told: a way to how it begins is a part
+            of them.
+        low: whether one goes down to it by a way of its own, however it would go on.
     """
 
     text: str
@@ -60,6 +63,7 @@ class Passage:
     window: int | None = None
     miss: Miss | None = None
     timed: int | None = None
+    low: bool = False
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -138,7 +142,7 @@ def stream_features(
         if given is not None and bool(given.known[:, :ROOT_ROW].any()):
             return False
         piece = tried(passage, frames, seed, before[:0], alone=True)
-        if is_apart(before, piece) and leaps(before[-1], piece[:1], fps):
+        if is_apart(before, piece) and (passage.low or leaps(before[-1], piece[:1], fps)):
             return True
         joined = tried(passage, frames, seed, before)
         return leaps(before[-1], joined, fps) and (

@@ -454,8 +454,8 @@ class SentenceGenerator:
             until = start + round(first * fps)  # who went comes to a stop first
             given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
         low = [self._nearest(part.text) == "sit" for part in parts]
-        for at, join in enumerate(starts[1:-1]):  # who sits down or gets up
-            if low[at] or low[at + 1]:
+        for at, join in enumerate(starts[1:-1]):  # who gets up
+            if low[at] and not low[at + 1]:
                 begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
                 led |= lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
@@ -478,7 +478,7 @@ class SentenceGenerator:
             does, free = features[start:stop], part.degrees is None and part.metres is None
             steady = self._steady(part.text, alone=len(parts) == 1) if free else ()
             does = hastened(without_drift(does, steady), self._pace(part), passage.timed)
-            shown, end = [*shown, features[end:start], does], stop
+            shown, end = [*shown, hastened(features[end:start], part.tempo), does], stop
         ends = [*accumulate(map(len, shown))]
         features, spans = torch.cat(shown), [*zip(ends[::2], ends[1::2], strict=True)]
         features = add_parts(self.generator, features, limbs, sampling)
@@ -515,13 +515,13 @@ class SentenceGenerator:
         if steps:
             gait = self._gait(clause.text, sampling, tag)
             clause = replace(clause, seconds=time_of_steps(steps, gait.speed))
-        given, pace = None, self._pace(clause)
+        given, pace, action = None, self._pace(clause), self._nearest(clause.text)
         if clause.seconds is not None:
             seconds, clause = clause.seconds, replace(clause, seconds=clause.seconds * pace)
         else:
             seconds = clause.lasting(seconds)
-        frames = max(1, round(max(1, round(seconds * fps)) * pace))
-        passage, seconds = Passage(clause.text, frames, tag, timed=exactly), seconds * pace
+        frames, seconds = max(1, round(max(1, round(seconds * fps)) * pace)), seconds * pace
+        passage = Passage(clause.text, frames, tag, timed=exactly, low=action == "sit")
         exactly = exactly and frames
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames

@@ -163,6 +163,8 @@ class Words:
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
+        joining = [word for word in all_of("with") if "*" not in word]
+        self.dangling = re.compile(rf"\s+{_any(joining)}$", re.I)
         self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         # "right at the corner", but "a right at the corner", "turns right at the corner"

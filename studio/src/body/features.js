@@ -37,7 +37,7 @@ export function removeDrift(features, columns, start = 0, stop = framesOf(featur
 /** Features so many times as fast, or in so many frames: between two frames a share of both, and it goes as far as they do. */
 export function hastened(features, times, frames = Math.max(1, round(framesOf(features) / times))) {
   const made = framesOf(features), last = made - 1;
-  if (times === 1 && frames === made) return features;
+  if (!made || (times === 1 && frames === made)) return features;
   const fast = new Float32Array(frames * WIDTH), columns = [FORWARD, LATERAL, YAW_RATE];
   const gone = columns.map((column) => {
     const sums = new Float64Array(made + 1);

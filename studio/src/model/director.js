@@ -200,7 +200,7 @@ export class Director {
     spans = parts.map((part, i) => {
       const [start, stop] = spans[i], does = cut(features, start, stop);
       if (part.degrees === null && part.metres === null) removeDrift(does, this.steady(part.text, parts.length === 1));
-      shown.push(cut(features, end, start));
+      shown.push(hastened(cut(features, end, start), part.tempo));
       end = stop;
       const first = joined();
       shown.push(hastened(does, this.pace(part), passages[i].timed));
@@ -217,13 +217,13 @@ export class Director {
     return { ...rested, text };
   }
 
-  /** Where somebody sits down or gets up, the pelvis does so as fast as people do; whether anybody does. */
+  /** Where somebody gets up, the pelvis does so as fast as people do; whether anybody does. */
   async ledDown(given, parts, starts, seed) {
     const low = ({ text }) => this.nearest(text) === "sit";
     let found = false;
     for (let i = 1; i < parts.length; i++) {
       const pair = parts.slice(i - 1, i + 1), heights = [];
-      if (!pair.some(low)) continue;
+      if (!low(pair[0]) || low(pair[1])) continue;
       for (const { text } of pair) heights.push((await naturalGait(this.sampler, text, seed)).height);
       const down = heights[1] - heights[0], start = Math.max(starts[i] - DOWN_AHEAD, 1);
       const frames = Math.min(round((Math.abs(down) / DOWN_SPEED) * FPS), framesOf(given.values) - start);
@@ -256,7 +256,8 @@ export class Director {
     const frames = Math.max(1, round(Math.max(1, round(seconds * FPS)) * pace));
     seconds *= pace;
     if (exactly !== null) exactly = frames;
-    const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh }, given });
+    const low = this.nearest(text) === "sit"; // gone down to by a way of its own
+    const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh, low }, given });
     if (this.applauds(clause) && !(await this.turns(clause))) {
       const claps = Math.max(1, round(seconds / CLAP));
       if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, frames);
@@ -283,7 +284,7 @@ export class Director {
     }
     if (count > 1) return this.repeated(clause, text, seconds, exactly);
     if (clause.held) return led(await this.held(clause, frames, seed));
-    return { passage: { text, frames, afresh, miss: this.miss(clause, frames) } };
+    return { passage: { text, frames, afresh, low, miss: this.miss(clause, frames) } };
   }
 
   /** Whether a clause asks for something that is seen once, and for no more of it. */
@@ -310,7 +311,7 @@ export class Director {
     const { count } = clause;
     const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
     const frames = exactly ?? once * count;
-    return { passage: { text, frames, afresh: this.beginsStanding(text), window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
+    return { passage: { text, frames, afresh: this.beginsStanding(text), low: this.nearest(text) === "sit", window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
   }
 
   /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */

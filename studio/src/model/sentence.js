@@ -462,7 +462,7 @@ export class SentenceReader {
   /** Two halves as one clause; null where they are not two actions, or the arms do neither. */
   pair(left, right, sure) {
     const halves = [left, right].map((half) =>
-      this.trimmed(half.replace(this.each.throughout, " ").replace(this.each.meanwhile, " ")));
+      this.trimmed(half.replace(this.each.throughout, " ").replace(this.each.meanwhile, " ")).replace(this.first.dangling, "")); // "walks with"
     if (halves.some((half) => this.first.limb.test(half))) return null;
     const [first, second] = halves.map((half) => this.reading(half));
     if (!(first.arms || second.arms) || !differ(first, second, sure)) return null;

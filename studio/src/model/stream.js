@@ -88,7 +88,7 @@ export async function spannedFeatures(sampler, passages, seed, options) {
 }
 
 /**
- * Raw features of passages { text, frames, window?, miss?, afresh?, timed? } in pieces that never change again.
+ * Raw features of passages { text, frames, window?, miss?, afresh?, timed?, low? } in pieces that never change again.
  * @param {Sampler} sampler
  * @param {Iterable<object>} passages taken one by one, each when the motion before it is made; one of one window that is `gone()` meanwhile was none
  * @param {bigint|number} seed
@@ -124,7 +124,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
   const leapt = async (passage, frames) => {
     if (constraint?.known.slice(made * WIDTH, (made + frames) * WIDTH).some((known, i) => known && i % WIDTH < ROOT)) return false;
     const [trial] = seeds(), piece = await tried(passage, frames, trial, new Float32Array(), true);
-    if (!piece || (isApart(before, piece) && leaps(before, cut(piece, 0, 1)))) return piece && true;
+    if (!piece || (isApart(before, piece) && (passage.low || leaps(before, cut(piece, 0, 1))))) return piece && true;
     const joined = await tried(passage, frames, trial, before);
     return joined && leaps(before, joined) && (isApart(before, piece) || !leaps(cut(piece, 0, 1), piece));
   };
