@@ -60,12 +60,7 @@ def of_another_hand(sentences: SentenceGenerator) -> dict[str, float]:
         if kind == "free":
             continue
         clauses = [each for each in sentences.clauses(text) if not is_wait(each)]
-        before = ["", *(clause.text for clause in clauses)]
-        texts = [
-            each.meanwhile if each.meanwhile and each.text == was else each.text
-            for was, each in zip(before, clauses, strict=False)
-        ]  # of who stays seated
-        readings = sentences.generator.read(texts)
+        readings = sentences.generator.read([clause.text for clause in clauses])
         found = [each.nearest[0] if each and each.nearest else None for each in readings]
         if kind == "two-sides":
             groups[kind].append(len(clauses) == 1 and clauses[0].meanwhile != "")

@@ -67,10 +67,12 @@ def hastened(features: Tensor, times: float, frames: int | None = None) -> Tenso
     before = np.minimum(at.astype(int), last)
     share = (np.minimum(at, last) - before)[:, None, None]
     shown = values[before] + share * (values[np.minimum(before + 1, last)] - values[before])
+    shown = shown[:-1]
+    if features.shape[1] <= ROOT_ROW:
+        return torch.as_tensor(shown).to(features.dtype)
     columns = [FORWARD, LATERAL, YAW_RATE]
     gone = np.concatenate((np.zeros((1, 3)), np.cumsum(values[:, ROOT_ROW, columns], axis=0)))
     way = np.stack([np.interp(at, np.arange(last + 2), each) for each in gone.T], -1)
-    shown = shown[:-1]
     shown[:, ROOT_ROW, columns] = np.diff(way, axis=0)
     return torch.as_tensor(shown).to(features.dtype)
 

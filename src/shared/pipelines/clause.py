@@ -71,6 +71,7 @@ class Clause:
         steps: to take; None where nothing is said.
         meanwhile: the words of what the arms, or `side`'s arm alone, do at the same time.
         side: left, right or both.
+        seat: what the body goes on to do meanwhile, who sits or kneels.
         held: whether it stays as it is when it is done, to the end.
         tempo: how many times as fast as usual.
         unheard: of the last of some clauses, the words beside them of which nothing is made.
@@ -84,13 +85,14 @@ class Clause:
     steps: float | None = None
     meanwhile: str = ""
     side: str = "both"
+    seat: str = ""
     held: bool = False
     tempo: float = 1.0
     unheard: str = ""
 
     def lasting(self, seconds: float) -> float:
-        """Seconds in which it is shown, of those that are asked for: who is slow takes longer, who
-        is fast is done sooner; what lasts is as long as it is asked for."""
+        """Seconds in which something is done once, of those that are asked for: who is slow takes
+        longer, who is fast is done sooner; where they are more, it lasts as long as they do."""
         return seconds / self.tempo if seconds <= ONCE else seconds
 
     @property
@@ -192,10 +194,11 @@ def without_tempo(text: str) -> tuple[str, float]:
     where two say otherwise ("quick, quick, slow")."""
     words = all_words()
     found = {words.tempos[bare(plain_text(said[0]))] for said in words.tempo.finditer(text)}
-    if len(found) != 1 or (said := words.tempo.search(text)) is None:
+    if len(found) != 1:
         return text, 1.0
-    rest = without(text, said)  # no blank is left where writing has none
-    return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", rest), found.pop()
+    while said := words.tempo.search(text):
+        text = without(text, said)  # no blank is left where writing has none
+    return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", text), found.pop()
 
 
 def in_tempo(clause: Clause, read: Read) -> Clause:

@@ -257,19 +257,20 @@ def all_but(features: Tensor, start: int, stop: int, joints: set[str] | None) ->
 
 def beside(
     generator: TextToMotion,
-    text: str,
+    passage: Passage,
     features: Tensor,
-    span: tuple[int, int],
+    start: int,
     joints: set[str],
     sampling: Sampling,
-    copy: bool,
+    seat: str,
 ) -> Tensor:
-    """Features [T,R,6] in which some joints do what a text says in a span of frames: filled in, or
-    a `copy` of what it does alone, where they would hardly move."""
-    start, stop = span
-    if not copy:
-        return fill_free(generator, text, all_but(features, start, stop, joints), sampling)
-    alone = torch.cat(list(stream_features(generator, [Passage(text, stop - start)], sampling)))
+    """Features [T,R,6] in which, from `start` on, some joints do what a passage says: filled in, or
+    where the body sits (`seat`) as it does alone, for there they would hardly move."""
+    stop = start + passage.frames
+    if not seat:
+        rest = all_but(features, start, stop, joints)
+        return fill_free(generator, passage.text, rest, sampling)
+    alone = torch.cat(list(stream_features(generator, [passage], sampling)))
     features, kept = features.clone(), torch.ones_like(features, dtype=torch.bool)
     for row in (JOINT_INDEX[joint] for joint in joints):
         features[start:stop, row] = alone[:, row]

@@ -110,7 +110,7 @@ def clauses(
         before, clause = found[at - 1], found[at]
         if clause.text == STANDS and clause.seconds is None and at < len(found) - 1:
             found[at] = replace(clause, seconds=RISEN)
-        elif known(before.text).action in SEATED and known(clause.text).arms:
+        elif known(before.seat or before.text).action in SEATED and known(clause.text).arms:
             found[at] = _seated(before, clause)
     return found
 
@@ -119,7 +119,7 @@ def _seated(before: Clause, clause: Clause) -> Clause:
     """What the arms do of who sits or kneels: he goes on to."""
     if clause.meanwhile or clause.far or clause.held:
         return clause
-    return replace(clause, text=before.text, meanwhile=clause.text, side=side_of(clause.text))
+    return replace(clause, seat=before.seat or before.text, side=side_of(clause.text))
 
 
 def _says(name: str, text: str, read: Read) -> bool:

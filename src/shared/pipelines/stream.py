@@ -69,6 +69,10 @@ class Passage:
         if self.frames < 1:
             raise UsageError(f"passage {self.text!r}: {self.frames} frames; 1 or more are needed")
 
+    def under(self, seat: str) -> "Passage":
+        """What the body does of it that goes on to sit, if it does."""
+        return replace(self, text=seat, window=None, miss=None) if seat else self
+
 
 def stream_features(
     generator: TextToMotion,
@@ -97,7 +101,8 @@ def stream_features(
             else they are dropped. A text that goes on has all that its window holds. Not for
             passages with a constraint or a `miss`.
         bridged: where a text begins in another posture than the one before ended in, the way there
-            is shown first: a piece beyond the passage's frames, which a constraint does not count.
+            is shown first: a piece beyond the passage's frames, which a constraint does not count,
+            or a part of them where its time is told.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
@@ -122,24 +127,33 @@ def stream_features(
         )
         return blend_boundaries(features[: len(known)], known.known)
 
+    asked: dict[tuple[int, int, int], Tensor] = {}  # samples of a window: frames, seed, shared ones
+
     def seeds() -> Iterator[int]:
         return retry_seeds(derived_seed(sampling.seed, number))
 
     def tried(
         passage: Passage, frames: int, seed: int, shared: Tensor, *, alone: bool = False
     ) -> Tensor:
-        given = None if constraint is None else constraint(made - len(shared), made + frames)
-        known = carried_on(shared, given, len(shared) + frames)
-        piece = sampled(passage, known, seed)[len(shared) :]
-        if alone or len(shared) or not len(before) or (bridged and is_apart(before, piece)):
+        before_it, given = len(shared), None
+        if constraint is not None:
+            start = max(made - before_it, 0)  # ways are beyond what it counts
+            given = behind(constraint(start, made + frames), before_it - made + start)
+        known = carried_on(shared, given, before_it + frames)
+        if (key := (frames, seed, before_it)) not in asked:
+            asked[key] = sampled(passage, known, seed)[before_it:]
+        piece = asked[key]
+        if alone or before_it or not len(before) or (bridged and is_apart(before, piece)):
             return piece
         return met(before, piece, known.known)
 
     def leapt(passage: Passage, frames: int, seed: int) -> bool:
         """Whether what comes first begins a leap away, or what goes on from before leaps as that
-        does not; not where a pose is known of it."""
+        does not; not where a pose is known of it, or it has no time for a way."""
         given = None if constraint is None else constraint(made, made + frames)
         if given is not None and bool(given.known[:, :ROOT_ROW].any()):
+            return False
+        if passage.timed is not None and (passage.window or passage.frames < SHORTEST):
             return False
         piece = tried(passage, frames, seed, before[:0], alone=True)
         if is_apart(before, piece) and (passage.low or leaps(before[-1], piece[:1], fps)):
@@ -149,6 +163,7 @@ def stream_features(
             is_apart(before, piece) or not leaps(piece[0], piece, fps)
         )
 
+    bridged = bridged and generator.network.motion_rows > ROOT_ROW
     for passage in passages:
         own = before[:0]  # what there is of the passage
         if shows == (passage.text, passage.tag) and len(spare) >= passage.frames:
@@ -160,6 +175,7 @@ def stream_features(
         lucky: list[int] = []  # the seed of the repetition before
         widest = min(window, passage.window or window)
         new, said = passage.text != said, passage.text
+        asked.clear()
         apart = new and stands(before, fps) and generator.begins_standing(said)
         beyond = ahead if constraint is None and passage.miss is None else 0
         if bridged and new and len(before) and not apart:
@@ -185,6 +201,7 @@ def stream_features(
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
             made, number, shared = made + length, number + 1, before
+            asked.clear()
             yield piece
 
 
@@ -298,6 +315,19 @@ def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constra
     return replace(known, values=values, known=mask, shown=shown)
 
 
+def behind(given: Constraint | None, frames: int) -> Constraint | None:
+    """So many frames more before it, of which nothing is known."""
+    if given is None or frames <= 0:
+        return given
+    free = Constraint.free(frames, *given.values.shape[1:])
+    return replace(
+        given,
+        values=torch.cat((free.values, given.values)),
+        known=torch.cat((free.known, given.known)),
+        shown=None if given.shown is None else torch.cat((~free.known, given.shown)),
+    )
+
+
 def lengthened(known: Constraint, frames: int) -> Constraint:
     """At least `frames` frames, nothing known of those that are added."""
     spare = frames - len(known)
@@ -322,7 +352,8 @@ class Latency:
     Attributes:
         first: seconds of computing until the first piece was there; None before.
         lookahead: seconds of motion that must be made behind a frame before it settles.
-        reaction: seconds of motion, at most, between what is seen and what a new text changes.
+        reaction: seconds of motion, at most, between what is seen and what a new text changes,
+            if it is no way to another posture.
         load: seconds of computing for a second of motion, since the first piece; below 1 it is
             faster than real time. None before.
     """

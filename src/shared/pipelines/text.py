@@ -26,7 +26,6 @@ from ..metrics.measurements import (
     repetitions,
     side_check,
 )
-from ..model.clip.features import TextFeatures
 from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint, lead_height
@@ -58,7 +57,7 @@ from .path import (
     time_path,
     turned,
 )  # fmt: skip
-from .sentence import SEATED, clauses, whole
+from .sentence import clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
@@ -83,6 +82,7 @@ class SentenceGenerator:
     def __init__(self, generator: TextToMotion) -> None:
         self.generator = generator
         self.card, self.text, self.scope = generator.card, generator.text, generator.scope
+        self.encode_prompts = generator.encode_prompts
         self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
         self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
         self._told, self._strange = set[str](), partial(unlearned, scope=self.scope)
@@ -178,10 +178,6 @@ class SentenceGenerator:
             if all(lines) and found and found.known and not any(self._warnings(asked[index])):
                 log.warning("%s", lines[0])
         return [replace(m, text=text) for index, text in enumerate(asked) for m in made[index]]
-
-    def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
-        """See `TextToMotion.encode_prompts`."""
-        return self.generator.encode_prompts(prompts)
 
     def scope_warnings(self, prompts: Sequence[str]) -> list[str | None]:
         """For each prompt, what is to be said of those of its clauses that are hardly known."""
@@ -462,17 +458,18 @@ class SentenceGenerator:
             given.known[: starts[1]] = True
         features, spans = spanned_features(
             self.generator,
-            [passage for passage, _ in stretches],
+            [each.under(part.seat) for (each, _), part in zip(stretches, parts, strict=True)],
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
             window=self._window(),
             overlap=REPEATED_OVERLAP if any(part.count > 1 for part in parts) else OVERLAP,
             sampling=sampling,
         )
-        for (start, stop), part in zip(spans, parts, strict=True):
-            if part.meanwhile:
+        for (start, stop), part, (own, _) in zip(spans, parts, stretches, strict=True):
+            if part.meanwhile or part.seat:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
-                args = part.meanwhile, features, (start, stop), joints, sampling
-                features = beside(self.generator, *args, self._nearest(part.text) in SEATED)
+                arms = own if part.seat else Passage(part.meanwhile, stop - start)
+                rest = features, start, joints, sampling, part.seat
+                features = beside(self.generator, arms, *rest)
         shown, end = list[Tensor](), 0
         for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None
@@ -518,7 +515,7 @@ class SentenceGenerator:
         given, pace, action = None, self._pace(clause), self._nearest(clause.text)
         if clause.seconds is not None:
             seconds, clause = clause.seconds, replace(clause, seconds=clause.seconds * pace)
-        else:
+        elif action not in GOING:
             seconds = clause.lasting(seconds)
         frames, seconds = max(1, round(max(1, round(seconds * fps)) * pace)), seconds * pace
         passage = Passage(clause.text, frames, tag, timed=exactly, low=action == "sit")

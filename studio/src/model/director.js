@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isPlain, lasting, plain, plainClause, SEATED, SentenceReader, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, isPlain, lasting, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -183,17 +183,18 @@ export class Director {
     }
     const down = await this.ledDown(given, parts, starts, seed);
     if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
-    let { features, spans } = await spannedFeatures(this.sampler, passages, seed, {
+    const under = passages.map((passage, i) => (parts[i].seat ? { ...passage, text: parts[i].seat, afresh: this.beginsStanding(parts[i].seat), window: undefined, miss: undefined } : passage));
+    let { features, spans } = await spannedFeatures(this.sampler, under, seed, {
       ...options,
       constraint: led || down ? given : null,
       window: this.window(),
       overlap: parts.some(({ count }) => count > 1) ? REPEATED_OVERLAP : OVERLAP,
     });
     for (const [i, part] of parts.entries())
-      if (part.meanwhile) {
+      if (part.meanwhile || part.seat) {
         const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
-        const seated = SEATED.includes(this.nearest(part.text)), alone = { text: part.meanwhile, frames: spans[i][1] - spans[i][0] };
-        features = await beside(this.sampler, alone, features, spans[i][0], joints, seed, seated);
+        const arms = part.seat ? passages[i] : { text: part.meanwhile, frames: spans[i][1] - spans[i][0] };
+        features = await beside(this.sampler, arms, features, spans[i][0], joints, seed, part.seat);
       }
     const shown = [], joined = () => shown.reduce((sum, piece) => sum + framesOf(piece), 0);
     let end = 0;
@@ -252,7 +253,7 @@ export class Director {
     if (clause.seconds !== null) {
       seconds = clause.seconds;
       clause = { ...clause, seconds: seconds * pace };
-    } else seconds = lasting(clause, seconds);
+    } else if (!GOING.includes(this.nearest(text))) seconds = lasting(clause, seconds);
     const frames = Math.max(1, round(Math.max(1, round(seconds * FPS)) * pace));
     seconds *= pace;
     if (exactly !== null) exactly = frames;

@@ -89,10 +89,10 @@ export async function fill(sampler, text, given, seed, options) {
   return { features: await fillFree(sampler, text, bent, seed, options), known: bent.known };
 }
 
-/** Features in which, from `start` on, some joints do what a passage says: filled in, or a copy of what it does alone, where they would hardly move. */
-export async function beside(sampler, passage, features, start, joints, seed, copy) {
+/** Features in which, from `start` on, some joints do what a passage says: filled in, or where the body sits (`seat`) as it does alone, for there they would hardly move. */
+export async function beside(sampler, passage, features, start, joints, seed, seat) {
   const stop = start + passage.frames;
-  if (!copy) return fillFree(sampler, passage.text, allBut(features, start, stop, joints), seed);
+  if (!seat) return fillFree(sampler, passage.text, allBut(features, start, stop, joints), seed);
   const alone = await streamFeatures(sampler, [passage], seed), copied = features.slice(), kept = new Uint8Array(features.length).fill(1);
   for (let t = start; t < stop; t++)
     for (const name of joints) {

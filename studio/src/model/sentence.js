@@ -19,14 +19,14 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", held: false, tempo: 1, unheard: "" });
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, unheard: "" });
 
 /** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
 export const lasting = ({ tempo }, seconds) => (seconds <= ONCE ? seconds / tempo : seconds);
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
-  && !clause.meanwhile && clause.side === "both" && !clause.held && clause.tempo === 1;
+  && !clause.meanwhile && clause.side === "both" && !clause.held && !clause.seat && clause.tempo === 1;
 
 function strip(text, characters = EDGES) {
   let start = 0, stop = text.length;
@@ -116,7 +116,7 @@ export class SentenceReader {
     for (let at = 1; at < real.length; at++) {
       const [before, clause] = real.slice(at - 1, at + 1);
       if (clause.text === STANDS && clause.seconds === null && at < real.length - 1) real[at] = { ...clause, seconds: RISEN };
-      else if (SEATED.includes(this.read(before.text).action) && this.read(clause.text).arms) real[at] = this.seated(before, clause);
+      else if (SEATED.includes(this.read(before.seat || before.text).action) && this.read(clause.text).arms) real[at] = this.seated(before, clause);
     }
     return real;
   }
@@ -124,7 +124,7 @@ export class SentenceReader {
   /** What the arms do of who sits or kneels: he goes on to. */
   seated(before, clause) {
     if (clause.meanwhile || clause.held || isFar(clause)) return clause;
-    return { ...clause, text: before.text, meanwhile: clause.text, side: this.sideOf(clause.text) };
+    return { ...clause, seat: before.seat || before.text, side: this.sideOf(clause.text) };
   }
 
   /** A clause in words of the tower; a bend that is all there is may be a walk. */
@@ -148,8 +148,8 @@ export class SentenceReader {
   withoutTempo(text) {
     const found = new Set([...text.matchAll(this.each.tempo)].map(([said]) => this.tempos[bare(plain(said))]));
     if (found.size !== 1) return { rest: text, tempo: 1 };
-    const rest = this.without(text, this.first.tempo.exec(text));
-    return { rest: rest.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""), tempo: [...found][0] };
+    for (let said; (said = this.first.tempo.exec(text));) text = this.without(text, said);
+    return { rest: text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""), tempo: [...found][0] };
   }
 
   /** A clause that has its tempo, where what is done is read without that word, and no other thing is than with it. */

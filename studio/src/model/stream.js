@@ -25,6 +25,17 @@ export const windowOf = (given, start, stop) => ({
   shown: cut(given.shown, start, stop),
 });
 
+/** So many frames more before it, of which nothing is known. */
+function behind(given, frames) {
+  if (frames <= 0) return given;
+  const free = freeConstraint(frames);
+  return {
+    values: joinArrays([free.values, given.values]),
+    known: joinArrays([free.known, given.known], Uint8Array),
+    shown: joinArrays([free.shown, given.shown], Uint8Array),
+  };
+}
+
 function lengthened(given, frames) {
   const spare = frames - framesOf(given.values);
   if (spare <= 0) return given;
@@ -106,22 +117,29 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
   };
   const seeds = () => retrySeeds(derivedSeed(seed, number));
   /** A window that goes on from `shared` frames; null where nobody asks for it any more. */
+  const asked = new Map(); // samples of a window: frames, seed, shared ones
   const tried = async (passage, frames, trial, shared, alone = false) => {
-    const kept = framesOf(shared);
-    const known = constraint ? windowOf(constraint, made - kept, made + frames) : freeConstraint(kept + frames);
+    const kept = framesOf(shared), start = Math.max(made - kept, 0); // ways are beyond what a constraint counts
+    const known = constraint ? behind(windowOf(constraint, start, made + frames), kept - made + start) : freeConstraint(kept + frames);
     known.values.set(shared);
     known.known.fill(1, 0, shared.length);
     known.shown.fill(1, 0, shared.length);
     const longer = lengthened(known, SHORTEST);
     const given = kept > 0 || constraint ? longer : null;
-    const features = await sampler.sample(passage.text, framesOf(longer.values), trial, given, { guidance, gone: passage.gone });
-    if (!features) return null;
-    const piece = cut(blendBoundaries(cut(features, 0, kept + frames), known.known), kept);
+    const key = `${frames} ${trial} ${kept}`;
+    let piece = asked.get(key);
+    if (!piece) {
+      const features = await sampler.sample(passage.text, framesOf(longer.values), trial, given, { guidance, gone: passage.gone });
+      if (!features) return null;
+      piece = cut(blendBoundaries(cut(features, 0, kept + frames), known.known), kept);
+      asked.set(key, piece);
+    }
     if (alone || kept || !before.length || (bridged && isApart(before, piece))) return piece;
     return met(before, piece, known.known);
   };
-  /** Whether what comes first begins a leap away, or what goes on from before leaps as that does not; not where a pose is known of it; null as above. */
+  /** Whether what comes first begins a leap away, or what goes on from before leaps as that does not; not where a pose is known of it, or it has no time for a way; null as above. */
   const leapt = async (passage, frames) => {
+    if (passage.timed !== undefined && (passage.window || passage.frames < SHORTEST)) return false;
     if (constraint?.known.slice(made * WIDTH, (made + frames) * WIDTH).some((known, i) => known && i % WIDTH < ROOT)) return false;
     const [trial] = seeds(), piece = await tried(passage, frames, trial, new Float32Array(), true);
     if (!piece || (isApart(before, piece) && (passage.low || leaps(before, cut(piece, 0, 1))))) return piece && true;
@@ -135,6 +153,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
       yield goOn(piece);
       continue;
     }
+    asked.clear();
     const earlier = said, fresh = passage.text !== said, widest = Math.min(window, passage.window ?? window);
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
     let apart = passage.afresh && fresh && stands(before);
@@ -174,6 +193,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
       own = joinArrays([own, best]);
       lucky = passage.window ? [chosen] : [];
       number++;
+      asked.clear();
       yield best;
     }
   }

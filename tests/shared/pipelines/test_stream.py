@@ -15,9 +15,10 @@ from src.shared.errors import UsageError, UserError
 from src.shared.metrics.measurements import Measurements, measure
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.constraint import Constraint
+from src.shared.model.generation.denoiser import MotionDenoiser
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES, retry_seeds
-from src.shared.motion.features import FORWARD, HEIGHT, ROOT_ROW, decode_features
+from src.shared.motion.features import FORWARD, HEIGHT, ROOT_ROW, decode_features, hastened
 from src.shared.motion.postprocess.stitching import joined
 from src.shared.motion.postprocess.streaming import StreamingPostProcessor
 from src.shared.pipelines import stream as motion_stream
@@ -240,13 +241,25 @@ def test_who_is_down_gets_up_before_he_goes_on() -> None:
     features, spans = spanned_features(starter, [lies, throws])
     assert spans == [(0, 120), (186, 276)] and len(features) == 276
     assert fastest(features) < 1.2
-    features, spans = spanned_features(starter, [lies, replace(throws, timed=True)])
+    features, spans = spanned_features(starter, [lies, replace(throws, timed=90)])
     assert spans == [(0, 120), (120, 210)] and len(features) == 210
     assert fastest(features) < 1.4
     stream = MotionStream(starter, [lies, throws])
     assert sum(piece.num_frames for piece in stream) == 276
     walks = [Passage("a person walks forward", 90), Passage("a person waves", 90)]
     assert spanned_features(starter, walks)[1] == [(0, 90), (90, 180)]  # nothing leaps
+
+
+def test_without_a_root_track_nothing_is_bridged(generator: TextToMotion) -> None:
+    network = generator.network.model_copy(update={"root_track": False})
+    rootless = TextToMotion(
+        MotionDenoiser(network, 2), generator.text, generator.tokenizer,
+        mean=generator.mean[:22], std=generator.std[:22], card=generator.card, device="cpu",
+    )  # fmt: skip
+    walks = [Passage("a person walks", 40), Passage("a person jumps", 40)]
+    features, spans = spanned_features(rootless, walks)
+    assert features.shape == (80, 22, 6) and spans == [(0, 40), (40, 80)]
+    assert hastened(features, 1.6).shape == (50, 22, 6)
 
 
 def test_nothing_to_say_is_refused_and_the_stream_goes_on(generator: TextToMotion) -> None:

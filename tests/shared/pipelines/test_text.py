@@ -14,6 +14,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from src.shared.errors import UserError
 from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
+from src.shared.metrics.physical import heading_of
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES
@@ -204,12 +205,27 @@ def test_who_sits_or_kneels_stays_so_while_the_arms_do_something(
     starter: TextToMotion, text: str, height: float
 ):
     sentences = SentenceGenerator(starter)
-    assert sentences.clauses(text)[-1].meanwhile == "waves"
+    assert sentences.clauses(text)[-1].seat
     [motion] = sentences.generate([text])
     joints = motion.positions()[-90:-15]
     assert joints[:, JOINT_INDEX["pelvis"], 1].max() < height
     hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
     assert (hands - joints[:, [JOINT_INDEX["pelvis"]], 1]).max() > 0.55  # as high as the head
+
+
+def test_who_sits_claps_as_often_as_is_said(starter: TextToMotion):
+    [motion] = SentenceGenerator(starter).generate(["kneels, then claps three times"])
+    assert abs(measure(motion.frames(150, motion.num_frames)).claps - 3) <= 1
+    wrists = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]]
+    assert np.linalg.norm(wrists[:, 0] - wrists[:, 1], axis=-1).min() < 0.12
+
+
+def test_what_comes_behind_a_way_may_be_led(starter: TextToMotion):
+    """Frames of a way are none that a constraint counts; passages shorter than an overlap."""
+    text = "sleeps for 0.2 seconds, then walks for 0.2 seconds, then turns left 90 degrees"
+    [motion] = SentenceGenerator(starter).generate([text])
+    heading = heading_of(motion)
+    assert np.degrees(heading[-1] - heading[0]) == pytest.approx(90, abs=10)
 
 
 def test_who_walks_may_have_the_hands_on_the_hips(starter: TextToMotion):

@@ -220,8 +220,6 @@ WAYS: dict[str, tuple[str, ...]] = {
 def leaps(pose: Tensor, piece: Tensor, fps: float) -> bool:
     """Whether a piece [T,R,6] that begins after a pose [R,6] is soon far higher or lower, or tilted
     otherwise, than a body gets in that time."""
-    if pose.shape[0] <= ROOT_ROW:
-        return False
     soon = torch.cat((pose[None], piece[: round(LEAP_SECONDS * fps)]))
     up = rotation_6d_to_matrix(soon[:, 0].double())[:, :, 1]
     far = (soon[:, ROOT_ROW, HEIGHT] - soon[0, ROOT_ROW, HEIGHT]).abs().max()

@@ -190,4 +190,3 @@ def test_a_leap_is_farther_than_a_body_gets() -> None:
     assert not leaps(standing[0], standing, 30.0)
     late = torch.cat((standing[:20], lying))
     assert not leaps(standing[0], late, 30.0)
-    assert not leaps(lying[0, :22], standing[:, :22], 30.0)  # no root track
