@@ -63,17 +63,15 @@ def hastened(features: Tensor, times: float, frames: int | None = None) -> Tenso
     if not len(features) or (times == 1 and frames == len(features)):
         return features
     values, last = features.cpu().numpy().astype(np.float64), len(features) - 1
-    at = np.arange(frames + 1) * (len(features) / frames)
-    before = np.minimum(at.astype(int), last)
-    share = (np.minimum(at, last) - before)[:, None, None]
-    shown = values[before] + share * (values[np.minimum(before + 1, last)] - values[before])
-    shown = shown[:-1]
-    if features.shape[1] <= ROOT_ROW:
-        return torch.as_tensor(shown).to(features.dtype)
-    columns = [FORWARD, LATERAL, YAW_RATE]
-    gone = np.concatenate((np.zeros((1, 3)), np.cumsum(values[:, ROOT_ROW, columns], axis=0)))
-    way = np.stack([np.interp(at, np.arange(last + 2), each) for each in gone.T], -1)
-    shown[:, ROOT_ROW, columns] = np.diff(way, axis=0)
+    at = np.linspace(0, last, frames)  # it begins and ends as it did
+    before = at.astype(int)
+    after, share = np.minimum(before + 1, last), (at - before)[:, None, None]
+    shown = values[before] + share * (values[after] - values[before])
+    if features.shape[1] > ROOT_ROW:
+        columns, ends = [FORWARD, LATERAL, YAW_RATE], np.linspace(0, last + 1, frames + 1)
+        gone = np.cumsum(values[:, ROOT_ROW, columns], axis=0).T
+        way = [np.interp(ends, np.arange(last + 2), [0.0, *each]) for each in gone]
+        shown[:, ROOT_ROW, columns] = np.diff(way).T
     return torch.as_tensor(shown).to(features.dtype)
 
 

@@ -46,11 +46,10 @@ export function hastened(features, times, frames = Math.max(1, round(framesOf(fe
   });
   const way = (sums, at) => { const t = Math.min(Math.floor(at), last); return sums[t] + (at - t) * (sums[t + 1] - sums[t]); };
   for (let t = 0; t < frames; t++) {
-    const at = t * (made / frames), before = Math.min(Math.floor(at), last), after = Math.min(before + 1, last);
-    const share = Math.min(at, last) - before;
+    const at = frames > 1 ? (t * last) / (frames - 1) : 0, before = Math.floor(at), after = Math.min(before + 1, last), share = at - before;
     for (let c = 0; c < WIDTH; c++)
       fast[t * WIDTH + c] = features[before * WIDTH + c] + share * (features[after * WIDTH + c] - features[before * WIDTH + c]);
-    columns.forEach((column, i) => { fast[t * WIDTH + ROOT + column] = way(gone[i], (t + 1) * (made / frames)) - way(gone[i], at); });
+    columns.forEach((column, i) => { fast[t * WIDTH + ROOT + column] = way(gone[i], (t + 1) * (made / frames)) - way(gone[i], t * (made / frames)); });
   }
   return fast;
 }

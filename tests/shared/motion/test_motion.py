@@ -227,5 +227,5 @@ def test_what_is_hastened_goes_as_far_in_its_time(frames: int, times: float, see
     torch.testing.assert_close(gone[1], gone[0], atol=1e-4, rtol=1e-4)
     torch.testing.assert_close(fast[0, :22], features[0, :22])
     assert len(hastened(features, times, 17)) == 17
-    double = torch.cat((features, features[-1:]))[: 2 * (frames // 2)]
-    torch.testing.assert_close(hastened(double, 2.0)[:, :22], double[::2, :22])  # no frame between
+    if len(fast) > 1:
+        torch.testing.assert_close(fast[-1, :22], features[-1, :22])  # no step to what follows
