@@ -532,6 +532,9 @@ class SentenceGenerator:
             frames = once * clause.count
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)
+                if once < LEAST * fps:
+                    said = clause.text, clause.count, exactly / fps, LEAST * clause.count
+                    log.warning("%r: %d times in %.1f s is not seen; give it %g s or more", *said)
             passage = replace(passage, frames=frames, window=once + REPEATED_OVERLAP)
         elif clause.held:
             given = held(self.generator, passage, partial(self._miss, clause), sampling)
