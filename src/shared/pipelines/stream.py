@@ -123,7 +123,7 @@ def stream_features(
             steps=sampling.steps,
             sampler=sampling.sampler,
             guidance_scale=sampling.guidance_scale,
-            constraints=[lengthened(known, SHORTEST)],
+            constraints=[padded(known, 0, SHORTEST - len(known))],
         )
         return blend_boundaries(features[: len(known)], known.known)
 
@@ -138,7 +138,8 @@ def stream_features(
         before_it, given = len(shared), None
         if constraint is not None:
             start = max(made - before_it, 0)  # ways are beyond what it counts
-            given = behind(constraint(start, made + frames), before_it - made + start)
+            given = constraint(start, made + frames)
+            given = given and padded(given, before_it - made + start, 0)
         known = carried_on(shared, given, before_it + frames)
         if (key := (frames, seed, before_it)) not in asked:
             asked[key] = sampled(passage, known, seed)[before_it:]
@@ -315,31 +316,19 @@ def carried_on(before: Tensor, given: Constraint | None, frames: int) -> Constra
     return replace(known, values=values, known=mask, shown=shown)
 
 
-def behind(given: Constraint | None, frames: int) -> Constraint | None:
-    """So many frames more before it, of which nothing is known."""
-    if given is None or frames <= 0:
-        return given
-    free = Constraint.free(frames, *given.values.shape[1:])
-    return replace(
-        given,
-        values=torch.cat((free.values, given.values)),
-        known=torch.cat((free.known, given.known)),
-        shown=None if given.shown is None else torch.cat((~free.known, given.shown)),
+def padded(given: Constraint, before: int, after: int) -> Constraint:
+    """So many frames more on both sides, of which nothing is known; none where the number is below
+    zero."""
+    rows = given.values.shape[1:]
+    ends = [Constraint.free(max(frames, 0), *rows) for frames in (before, after)]
+    values, known = (
+        torch.cat([getattr(each, name) for each in (ends[0], given, ends[1])])
+        for name in ("values", "known")
     )
-
-
-def lengthened(known: Constraint, frames: int) -> Constraint:
-    """At least `frames` frames, nothing known of those that are added."""
-    spare = frames - len(known)
-    if spare <= 0:
-        return known
-    free = Constraint.free(spare, *known.values.shape[1:])
-    return replace(
-        known,
-        values=torch.cat((known.values, free.values)),
-        known=torch.cat((known.known, free.known)),
-        shown=None if known.shown is None else torch.cat((known.shown, free.known)),
-    )
+    shown = given.shown
+    if shown is not None:
+        shown = torch.cat((ends[0].known, shown, ends[1].known))
+    return replace(given, values=values, known=known, shown=shown)
 
 
 # ---------------------------------------------------------------- settled motion

@@ -25,26 +25,11 @@ export const windowOf = (given, start, stop) => ({
   shown: cut(given.shown, start, stop),
 });
 
-/** So many frames more before it, of which nothing is known. */
-function behind(given, frames) {
-  if (frames <= 0) return given;
-  const free = freeConstraint(frames);
-  return {
-    values: joinArrays([free.values, given.values]),
-    known: joinArrays([free.known, given.known], Uint8Array),
-    shown: joinArrays([free.shown, given.shown], Uint8Array),
-  };
-}
-
-function lengthened(given, frames) {
-  const spare = frames - framesOf(given.values);
-  if (spare <= 0) return given;
-  const free = freeConstraint(spare);
-  return {
-    values: joinArrays([given.values, free.values]),
-    known: joinArrays([given.known, free.known], Uint8Array),
-    shown: joinArrays([given.shown, free.shown], Uint8Array),
-  };
+/** So many frames more on both sides, of which nothing is known; none where the number is below zero. */
+function padded(given, before, after) {
+  const ends = [before, after].map((frames) => freeConstraint(Math.max(frames, 0)));
+  const joined = (name, Kind) => joinArrays([ends[0][name], given[name], ends[1][name]], Kind);
+  return { values: joined("values"), known: joined("known", Uint8Array), shown: joined("shown", Uint8Array) };
 }
 
 /** New frames of each window of a passage: as few as do, nearly alike in length. */
@@ -120,11 +105,11 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
   const asked = new Map(); // samples of a window: frames, seed, shared ones
   const tried = async (passage, frames, trial, shared, alone = false) => {
     const kept = framesOf(shared), start = Math.max(made - kept, 0); // ways are beyond what a constraint counts
-    const known = constraint ? behind(windowOf(constraint, start, made + frames), kept - made + start) : freeConstraint(kept + frames);
+    const known = constraint ? padded(windowOf(constraint, start, made + frames), kept - made + start, 0) : freeConstraint(kept + frames);
     known.values.set(shared);
     known.known.fill(1, 0, shared.length);
     known.shown.fill(1, 0, shared.length);
-    const longer = lengthened(known, SHORTEST);
+    const longer = padded(known, 0, SHORTEST - framesOf(known.values));
     const given = kept > 0 || constraint ? longer : null;
     const key = `${frames} ${trial} ${kept}`;
     let piece = asked.get(key);
