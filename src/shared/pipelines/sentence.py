@@ -47,10 +47,11 @@ from .words import (
 SURE_AT_MARK, SURE_IF_SAID = -14.0, -2.0
 SITS, SQUATS = "sits", "squats down"
 BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
-RISEN = 1.5  # seconds that one who got up stands before the next thing
+# Seconds that one who got up stands, or who sat down sits, before the next thing; who lies down.
+RISEN, LAID = 1.5, 3.0
 HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
-SEATED = LOW | {"sit-floor"}  # while the arms do something
+SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
 MOST_PIECES = 8  # between commas, that may be one part
 
@@ -106,20 +107,36 @@ def clauses(
         sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
         found[:waits] = [sits]
     found = [_plainly(each, read, alone=len(found) == 1) for each in found]
-    for at in range(1, len(found)):
-        before, clause = found[at - 1], found[at]
-        if clause.text == STANDS and clause.seconds is None and at < len(found) - 1:
+    for at, clause in enumerate(found):
+        before, ends = found[at - 1] if at else Clause(""), at == len(found) - 1
+        if at and clause.text == STANDS and clause.seconds is None and not ends:
             found[at] = replace(clause, seconds=RISEN)
-        elif known(before.seat or before.text).action in SEATED and known(clause.text).arms:
-            found[at] = _seated(before, clause)
+            continue
+        found[at] = _seated(before, clause, known)
+        if at and found[at].seat and found[at] != clause and before == Clause(before.text):
+            down = RISEN if known(before.text).action in LOW else LAID
+            found[at - 1] = replace(before, seconds=down)  # there is more to come
     return found
 
 
-def _seated(before: Clause, clause: Clause) -> Clause:
-    """What the arms do of who sits or kneels: he goes on to."""
+def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
+    """What the arms do of who sits, kneels or lies: he goes on to, whether he does so already, does
+    both at once, or a word says that he does ("kneeling, he waves")."""
+    if clause.meanwhile and read(clause.text).action in SEATED:
+        own = measured(clause.meanwhile)
+        return replace(own, seat=clause.text, side=clause.side, unheard=clause.unheard)
     if clause.meanwhile or clause.far or clause.held:
         return clause
-    return replace(clause, seat=before.seat or before.text, side=side_of(clause.text))
+    seat = before.seat or before.text
+    if read(clause.text).arms and read(seat).action in SEATED:
+        return replace(clause, seat=seat, side=side_of(clause.text))
+    words = all_words()
+    said = words.posture.search(clause.text)
+    rest = without(clause.text, said) if said else ""
+    if said is None or not read(rest).arms:
+        return clause
+    seat = words.postures[bare(plain_text(said[0].strip(EDGES)))]
+    return replace(clause, text=rest, seat=seat, side=side_of(rest))
 
 
 def _says(name: str, text: str, read: Read) -> bool:

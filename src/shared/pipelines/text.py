@@ -449,7 +449,7 @@ class SentenceGenerator:
             first = STOP if stands else TURN_REST * (start > 0 and part.metres == 0)
             until = start + round(first * fps)  # who went comes to a stop first
             given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
-        low = [self._nearest(part.text) == "sit" for part in parts]
+        low = [self._nearest(part.seat or part.text) == "sit" for part in parts]
         for at, join in enumerate(starts[1:-1]):  # who gets up
             if low[at] and not low[at + 1]:
                 begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])

@@ -156,23 +156,21 @@ class Words:
         asides = [*all_of("limbs"), *all_of("aside"), *all_of("throughout")]
         self.ended = re.compile(rf"(?:(?P<stop>[.!?;。！？；…])|{_any(joints)},?)\s*$", re.I)
         self.aside = re.compile(_any([*owned, *asides]), re.I)
-        self.lacking = re.compile(_any(all_of("lacking")), re.I)
         denial = rf"\s*{_any(all_of('denied'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.denial = re.compile(rf"(?:{denial})+", re.I)
         own = _any(owned)
         limbs = rf"(?:{own}\s*)*{_any(all_of('limbs'))}"
         # But "coup de poing" neither names a fist nor is it a gerund.
         self.sign = re.compile(rf"(?<!de )(?:{_any(all_of('with'))}|{limbs})", re.I)
-        joining = [word for word in all_of("with") if "*" not in word]
-        self.dangling = re.compile(rf"\s+{_any(joining)}$", re.I)
+        self.dangling = re.compile(rf"\s+{_any([*filter(str.isalpha, all_of('with'))])}$", re.I)
         self.limb = re.compile(rf"^{limbs}$", re.I)
         self.manner = re.compile(rf"{_any(all_of('manner'))}$", re.I)
         # "right at the corner", but "a right at the corner", "turns right at the corner"
         apart = "".join(rf"(?<!(?<!{_LETTER}){word}\s)" for word in all_of("to_side"))
         self.no_side = re.compile(apart + _any(all_of("no_side")), re.I)
-        self.left, self.right, self.round, self.corner, self.uncounted = (
+        self.left, self.right, self.round, self.corner, self.uncounted, self.takes, self.lacking = (
             re.compile(_any(all_of(key)), re.I)
-            for key in ("left", "right", "round", "corners", "uncounted")
+            for key in ("left", "right", "round", "corners", "uncounted", "takes", "lacking")
         )
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
@@ -186,7 +184,6 @@ class Words:
         self.numbers |= {bare(word): 1 for word in articles}
         steps = {noun: stays for table in tables for noun, stays in table["steps"].items()}
         self.steps = {bare(noun.partition("/")[0]): stays for noun, stays in steps.items()}
-        self.takes = re.compile(_any(all_of("takes")), re.I)
         larger = rf"(?:{_any(all_of('larger'))}|{_any(numbers)})"
         self.larger = re.compile(rf"{larger}(?:\s+{_any(all_of('and'))})?[\s-]*$", re.I)
         half = rf"(?P<half>\s*{_any(all_of('half'))})?{_TRAIL}"
@@ -284,17 +281,18 @@ class Words:
         goal = rf"(?P<way>{'|'.join(ways)})(?:\s+(?!{nowhere}){_LETTER}+{ends}|{there})"
         self.goal = Rare(goal, verbs_to)
         self.plainly |= {bare(to): plain for to, plain in goals.items()} | goals
-        sideways = _any([*owned, *all_of("toward")])
-        self.sideways = re.compile(rf"^(?:{sideways}\s*)+$", re.I)
+        self.sideways = re.compile(rf"^(?:{_any([*owned, *all_of('toward')])}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         keys = "in_place", "off", "many", "crouches", "head_turns", "tempos"
         self.in_place, self.off, self.many, self.crouches, self.head_turns, self.tempo = (
             Rare(_any(all_of(key)), all_of(key)) for key in keys
         )
+        low = {said: does for t in tables for does, many in t["postures"].items() for said in many}
+        self.posture = Rare(rf"{_any(low)}(?:\s*{_COMMAS})?", [*low])
+        self.postures = {bare(said): does for said, does in low.items()}
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
-        # A bare number counts what follows it; "one" is mostly somebody, "a" nothing at all.
-        several = [word for word, value in numbers.items() if value > 1]
+        several = [word for word, value in numbers.items() if value > 1]  # "one" is mostly somebody
         counted = rf"(?:{others}(?=[\s-]+\w)|(?={_any(all_of('nouns'))}))"
         self.bare = re.compile(rf"{ready}(?P<number>\d+|{_any(several)}){counted}", re.I)
         heads = _any(joints + all_of("first"))

@@ -220,7 +220,7 @@ export class Director {
 
   /** Where somebody gets up, the pelvis does so as fast as people do; whether anybody does. */
   async ledDown(given, parts, starts, seed) {
-    const low = ({ text }) => this.nearest(text) === "sit";
+    const low = ({ seat, text }) => this.nearest(seat || text) === "sit";
     let found = false;
     for (let i = 1; i < parts.length; i++) {
       const pair = parts.slice(i - 1, i + 1), heights = [];

@@ -10,10 +10,10 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
   bends: [{ action: "turn", certainty: 3, arms: false }, "turns left"],
   posed: [{ action: "raise", certainty: 3, arms: true }, "raises both arms"],
 };
-export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor"];
+export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor", "lie-down", "sleep"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, RISEN = 1.5, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, RISEN = 1.5, LAID = 3, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
@@ -113,18 +113,29 @@ export class SentenceReader {
       else if (first === STANDS && real.length === 2 && this.first.ups.test(real[1].text)) real[0] = { ...real[0], text: SITS }; // "gets up after three seconds"
     }
     real = real.map((each) => this.inPlainWords(each, real.length === 1));
-    for (let at = 1; at < real.length; at++) {
-      const [before, clause] = real.slice(at - 1, at + 1);
-      if (clause.text === STANDS && clause.seconds === null && at < real.length - 1) real[at] = { ...clause, seconds: RISEN };
-      else if (SEATED.includes(this.read(before.seat || before.text).action) && this.read(clause.text).arms) real[at] = this.seated(before, clause);
+    for (const [at, clause] of real.entries()) {
+      const before = real[at - 1] ?? plainClause(""), last = at === real.length - 1;
+      if (at && clause.text === STANDS && clause.seconds === null && !last) {
+        real[at] = { ...clause, seconds: RISEN };
+        continue;
+      }
+      real[at] = this.seated(before, clause);
+      if (at && real[at].seat && real[at] !== clause && isPlain(before) && !before.unheard) real[at - 1] = { ...before, seconds: LOW.includes(this.read(before.text).action) ? RISEN : LAID }; // there is more to come
     }
     return real;
   }
 
-  /** What the arms do of who sits or kneels: he goes on to. */
+  /** What the arms do of who sits, kneels or lies: he goes on to, whether he does so already, does both at once, or a word says that he does ("kneeling, he waves"). */
   seated(before, clause) {
+    const low = (text) => SEATED.includes(this.read(text).action);
+    if (clause.meanwhile && low(clause.text))
+      return { ...this.measured(clause.meanwhile), seat: clause.text, side: clause.side, unheard: clause.unheard };
     if (clause.meanwhile || clause.held || isFar(clause)) return clause;
-    return { ...clause, seat: before.seat || before.text, side: this.sideOf(clause.text) };
+    const seat = before.seat || before.text;
+    if (this.read(clause.text).arms && low(seat)) return { ...clause, seat, side: this.sideOf(clause.text) };
+    const said = this.first.posture.exec(clause.text), rest = said ? this.without(clause.text, said) : "";
+    if (!said || !this.read(rest).arms) return clause;
+    return { ...clause, text: rest, seat: this.postures[bare(plain(strip(said[0])))], side: this.sideOf(rest) };
   }
 
   /** A clause in words of the tower; a bend that is all there is may be a walk. */

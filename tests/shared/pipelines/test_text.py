@@ -199,7 +199,7 @@ def test_what_is_said_to_be_slow_or_fast_is(starter: TextToMotion):
 @pytest.mark.parametrize(
     ("text", "height"),
     [("a person sits and waves", 0.65), ("kneels, then waves", 0.55),
-     ("sits down on the floor, then waves", 0.2)],
+     ("sits down on the floor, then waves", 0.2), ("sits on a chair, then waves", 0.65)],
 )  # fmt: skip
 def test_who_sits_or_kneels_stays_so_while_the_arms_do_something(
     starter: TextToMotion, text: str, height: float
@@ -210,12 +210,12 @@ def test_who_sits_or_kneels_stays_so_while_the_arms_do_something(
     joints = motion.positions()[-90:-15]
     assert joints[:, JOINT_INDEX["pelvis"], 1].max() < height
     hands = joints[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
-    assert (hands - joints[:, [JOINT_INDEX["pelvis"]], 1]).max() > 0.55  # as high as the head
+    assert (hands - joints[:, [JOINT_INDEX["pelvis"]], 1]).max() > 0.45  # as high as the shoulders
 
 
 def test_who_sits_claps_as_often_as_is_said(starter: TextToMotion):
     [motion] = SentenceGenerator(starter).generate(["kneels, then claps three times"])
-    assert abs(measure(motion.frames(150, motion.num_frames)).claps - 3) <= 1
+    assert abs(measure(motion).claps - 3) <= 1
     wrists = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]]
     assert np.linalg.norm(wrists[:, 0] - wrists[:, 1], axis=-1).min() < 0.12
 
