@@ -44,6 +44,7 @@ def test_then(model: str, tmp_path: Path) -> None:
     row = generate(model, tmp_path, *WALK, "--then", "somebody jumps twice", "--seconds", "1")
     assert row["frames"] == 30 + 2 * 75 and row["directions"] == ["--then"]  # two jumps take time
     assert row["prompt"] == "a person walks forward, then somebody jumps twice"
+    assert [each["text"] for each in row["clauses"]] == ["a person walks forward", "somebody jumps"]
 
 
 def test_timeline_with_a_path(model: str, tmp_path: Path) -> None:

@@ -60,6 +60,18 @@ def test_lines_of_a_pipe_are_heard_as_they_come_those_of_a_file_are_each_seen(
     assert (jumps - waves >= 115) == late  # four seconds of frames
 
 
+def test_lines_that_came_while_it_loaded_are_each_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = time.monotonic()
+    lines = [(now - 9, "a person waves"), (now - 6, "a person jumps"), (now - 3, "a person bows")]
+    monkeypatch.setattr(stream_module, "_as_they_come", lambda: iter(lines))
+    command = ["stream", "--no-real-time", "--json", "--steps", "1", "--seconds", "14"]
+    result = CliRunner().invoke(app, command)
+    assert result.exit_code == 0, result.output
+    texts = [json.loads(line)["text"] for line in result.stdout.splitlines()]
+    seen = [text for text, _ in itertools.groupby(texts)]
+    assert seen[-3:] == [text for _, text in lines]
+
+
 def test_a_pipe_that_never_ends_is_read_no_further_than_a_bit_ahead(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
