@@ -3,9 +3,9 @@
 A window has one text. Its first frames are known, the last ones of the window before, whatever
 text that had: this is how one action leads into the next. Where a body stands still, and a new text
 begins so, they are not: what follows would be in the manner of what was (a wave after a clap that
-nobody recorded is one that nobody recorded). It is made as if it came first, and joined. Features
-say nothing of place or heading, so windows are chained as they are. One window is in memory at a
-time.
+nobody recorded is one that nobody recorded). It is made as if it came first, and joined; where two
+postures lie apart, by a way from one to the other (`bridge`). Features say nothing of place or
+heading, so windows are chained as they are. One window is in memory at a time.
 
 Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
 """
@@ -132,6 +132,11 @@ def stream_features(
     def seeds() -> Iterator[int]:
         return retry_seeds(derived_seed(sampling.seed, number))
 
+    def bridges(passage: Passage) -> bool:
+        """Whether there is time for a way, and no repetition that it would cut short."""
+        free = passage.timed is None or not (passage.window or passage.frames < SHORTEST)
+        return bridged and free
+
     def tried(
         passage: Passage, frames: int, seed: int, shared: Tensor, *, alone: bool = False
     ) -> Tensor:
@@ -144,17 +149,15 @@ def stream_features(
         if (key := (frames, seed, before_it)) not in asked:
             asked[key] = sampled(passage, known, seed)[before_it:]
         piece = asked[key]
-        if alone or before_it or not len(before) or (bridged and is_apart(before, piece)):
+        if alone or before_it or not len(before) or (bridges(passage) and is_apart(before, piece)):
             return piece
         return met(before, piece, known.known)
 
     def leapt(passage: Passage, frames: int, seed: int) -> bool:
         """Whether what comes first begins a leap away, or what goes on from before leaps as that
-        does not; not where a pose is known of it, or it has no time for a way."""
+        does not; not where a pose is known of it."""
         given = None if constraint is None else constraint(made, made + frames)
         if given is not None and bool(given.known[:, :ROOT_ROW].any()):
-            return False
-        if passage.timed is not None and (passage.window or passage.frames < SHORTEST):
             return False
         piece = tried(passage, frames, seed, before[:0], alone=True)
         if is_apart(before, piece) and (passage.low or leaps(before[-1], piece[:1], fps)):
@@ -179,7 +182,7 @@ def stream_features(
         asked.clear()
         apart = new and stands(before, fps) and generator.begins_standing(said)
         beyond = ahead if constraint is None and passage.miss is None else 0
-        if bridged and new and len(before) and not apart:
+        if bridges(passage) and new and len(before) and not apart:
             length, *_ = window_lengths(passage.frames, len(before), widest, overlap)
             apart = leapt(passage, length + beyond, next(seeds()))
         shared = before[:0] if apart else before
@@ -190,7 +193,7 @@ def stream_features(
             tries = (tried(passage, length + beyond, seed, shared) for seed in noises)
             piece, best = nearest_to_wanted(tries, own, passage.miss)
             lucky = [noises[best]] if passage.window else []
-            if bridged and not len(shared) and len(before) and is_apart(before, piece):
+            if bridges(passage) and not len(shared) and len(before) and is_apart(before, piece):
                 way = bridge(before, piece, fps)
                 if passage.timed is not None:  # a part of what the passage has
                     cut = min(len(way), length // 2)

@@ -101,6 +101,8 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     return piece;
   };
   const seeds = () => retrySeeds(derivedSeed(seed, number));
+  /** Whether there is time for a way, and no repetition that it would cut short. */
+  const bridges = ({ timed, window: repeats, frames }) => bridged && (timed === undefined || !(repeats || frames < SHORTEST));
   /** A window that goes on from `shared` frames; null where nobody asks for it any more. */
   const asked = new Map(); // samples of a window: frames, seed, shared ones
   const tried = async (passage, frames, trial, shared, alone = false) => {
@@ -119,12 +121,11 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
       piece = cut(blendBoundaries(cut(features, 0, kept + frames), known.known), kept);
       asked.set(key, piece);
     }
-    if (alone || kept || !before.length || (bridged && isApart(before, piece))) return piece;
+    if (alone || kept || !before.length || (bridges(passage) && isApart(before, piece))) return piece;
     return met(before, piece, known.known);
   };
-  /** Whether what comes first begins a leap away, or what goes on from before leaps as that does not; not where a pose is known of it, or it has no time for a way; null as above. */
+  /** Whether what comes first begins a leap away, or what goes on from before leaps as that does not; not where a pose is known of it; null as above. */
   const leapt = async (passage, frames) => {
-    if (passage.timed !== undefined && (passage.window || passage.frames < SHORTEST)) return false;
     if (constraint?.known.slice(made * WIDTH, (made + frames) * WIDTH).some((known, i) => known && i % WIDTH < ROOT)) return false;
     const [trial] = seeds(), piece = await tried(passage, frames, trial, new Float32Array(), true);
     if (!piece || (isApart(before, piece) && (passage.low || leaps(before, cut(piece, 0, 1))))) return piece && true;
@@ -143,7 +144,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
     let apart = passage.afresh && fresh && stands(before);
     let beyond = constraint || passage.miss ? 0 : ahead;
-    if (bridged && fresh && before.length && !apart) {
+    if (bridges(passage) && fresh && before.length && !apart) {
       const [length] = windowLengths(passage.frames, framesOf(before), widest, overlap);
       apart = await leapt(passage, length + beyond);
       if (apart === null) continue;
@@ -160,7 +161,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
         if (found < least) { least = found; best = piece; chosen = trial; }
         if (least <= 0) break;
       }
-      if (bridged && !shared.length && before.length && isApart(before, best)) {
+      if (bridges(passage) && !shared.length && before.length && isApart(before, best)) {
         let way = bridge(before, best);
         if (passage.timed) { // a part of what the passage has
           const first = Math.min(framesOf(way), Math.floor(length / 2));

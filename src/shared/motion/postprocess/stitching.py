@@ -161,22 +161,17 @@ def _expected(before: np.ndarray, fixed: np.ndarray, after: np.ndarray) -> np.nd
 
 def _weights(frames: int, reach: int) -> np.ndarray:
     """[frames] from 1 to 0 over `reach` frames; first and second derivative vanish at both ends."""
-    x = np.clip(np.arange(frames) / reach, 0, 1)
-    return np.asarray(1 - x**3 * (x * (6 * x - 15) + 10))
+    return np.asarray(1 - _eased(torch.arange(frames, dtype=torch.float64) / reach).numpy())
 
 
 # ---------------------------------------------------------------- from posture to posture
 
-LEAP_SECONDS, LEAP_HEIGHT, LEAP_TILT = (
-    0.5,
-    0.3,
-    0.64,
-)  # in which who leaps goes up or down, or tilts
+LEAP_SECONDS = 0.5  # in which who leaps
+LEAP_HEIGHT, LEAP_TILT = 0.3, 0.64  # goes up or down by metres, or tilts, a cosine
 UPRIGHT = 0.5  # cosine: a pelvis that is tilted by more lies
 LOW, SEAT = 0.75, 0.35  # of a standing pelvis' height: who is lower crouches, or sits on the floor
 IN_THE_AIR = 0.3  # metres above the floor of the lowest joint
 EDGE, STEP = 1.0, 0.6  # seconds from one pose to the next, and until the one after that begins
-WHOLE = 10_000  # frames: more than any way has
 FLAT = 0.02  # metres by which an ankle is higher that carries 1 / e as much
 STAYS = 0.2  # m/s of a foot, at most, that carries
 STOPPING = 0.1  # seconds in which what moved comes to rest
@@ -248,7 +243,8 @@ def bridge(before: Tensor, after: Tensor, fps: float, longest: int | None = None
     names = [start, *_between(start, stop), stop]
     keys = [first, *map(_pose, names[1:-1]), last]
     total = STEP * (len(keys) - 2) + EDGE
-    frames = min(round(total * fps), longest or WHOLE)
+    frames = round(total * fps)
+    frames = frames if longest is None else min(frames, longest)
     time = torch.arange(frames + 2, dtype=torch.float64) * total / (frames + 1)  # both ends, too
     # It goes on as it moved at last, comes to rest, and then where it is to be.
     on = STOPPING * fps * (1 - torch.exp(-time / STOPPING)) * (1 - _eased(time / EDGE))
