@@ -50,7 +50,7 @@ export class Engine {
     if (this.stream) this.stream.text = text;
   }
 
-  warning({ text }) {
-    return this.director.warning(text);
+  warning({ text, seconds }) {
+    return this.director.warning(text, seconds);
   }
 }

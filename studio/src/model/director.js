@@ -35,8 +35,8 @@ export class Director {
     return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action), known };
   }
 
-  /** Lines about sentences that the model hardly knows; null where all is well. */
-  warning(prompt) {
+  /** Lines about sentences that the model hardly knows, or that count more than their seconds hold; null where all is well. */
+  warning(prompt, seconds = Infinity) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
     let lines = texts.map((text) => this.scope.warning(text));
@@ -50,6 +50,10 @@ export class Director {
     const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
     const told = texts.map((text, i) => this.unlearned(text) ?? (sure(text) ? null : lines[i])).filter(Boolean);
     for (const { unheard } of parts) if (unheard) told.push(this.unlearned(unheard) ?? `Nothing is made of “${unheard}”.`);
+    for (const { text, count } of parts) {
+      const own = seconds / parts.length;
+      if (own < count * LEAST && count > 1 && !ROUND.includes(this.nearest(text))) told.push(`“${text}”: ${count} times in ${own.toFixed(1)} seconds is not seen; give it ${count * LEAST} or more.`);
+    }
     return [...new Set(told)].join(" ") || null;
   }
 

@@ -426,8 +426,9 @@ class Page {
   /** Says which sentences the model hardly knows, and which motions do not show theirs. */
   async warn() {
     if (!this.client) return;
-    const texts = [...new Set(this.scene.blocks.map(({ text }) => text).filter((text) => text.trim()))];
-    const found = await Promise.all(texts.map((text) => this.client.call("warning", { text })));
+    const { blocks, path } = this.scene, timed = blocks.length > 1 && !path; // one alone takes the time that it needs
+    const asked = blocks.filter(({ text }) => text.trim()).map(({ text, seconds }) => ({ text, seconds: timed ? seconds : undefined }));
+    const found = await Promise.all(asked.map((each) => this.client.call("warning", each)));
     const list = $("warnings");
     const takes = Array.from({ length: this.scene.takes }, (_, take) => this.motions.get(this.keyOf(take))?.missed);
     const lines = [...new Set([...found, ...takes].filter(Boolean))];

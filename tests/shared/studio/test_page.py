@@ -133,6 +133,17 @@ def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
 
 
 @BROWSER
+def test_counts_that_their_seconds_do_not_hold_are_told(browser: Browser) -> None:
+    with_blocks(browser, ("a person walks", 2), ("bows three times", 2))
+    browser.evaluate("studio.warn()")
+    told = "“bows”: 3 times in 2.0 seconds is not seen; give it 3 or more."
+    assert text_of(browser, "warnings") == told
+    with_blocks(browser, ("bows three times", 2))
+    browser.evaluate("studio.warn()")
+    assert text_of(browser, "warnings") == ""
+
+
+@BROWSER
 def test_the_two_learned_steps_are_those_of_the_command_line(
     generator: MotionGenerator, tmp_path: Path
 ) -> None:
