@@ -28,6 +28,7 @@ from .skeleton import MIRROR, NUM_JOINTS, PARENTS, REST_PELVIS_HEIGHT, canonical
 
 FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
 ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
+TURNED_OVER = -0.5  # how far up, of 1, the back of who has no heading points at most: 120 degrees
 # What a mirror does to the first two columns of a matrix: M·R·M, M = diag(-1, 1, 1).
 _MIRROR_SIGNS = (1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
 
@@ -44,15 +45,21 @@ class Place:
 ORIGIN = Place()
 
 
-def headings(matrices: Tensor) -> Tensor:
-    """Unwrapped heading [T] in radians of pelvis rotations [T,3,3]."""
-    return _unwrapped(heading_angle(matrices), [slice(None)])
+def headings(matrices: Tensor, spans: Sequence[slice] = (slice(None),)) -> Tensor:
+    """Heading [T] in radians of pelvis rotations [T,3,3], without jumps of 2π within each span.
 
-
-def _unwrapped(angles: Tensor, spans: Sequence[slice]) -> Tensor:
-    """Angles [T] without jumps of 2π within each span."""
-    whole = [np.unwrap(angles[span].numpy()) for span in spans]
-    return torch.as_tensor(np.concatenate(whole), dtype=angles.dtype)
+    Who is upside down has none that could be told (the twist about +Y goes half round there from
+    one frame to the next): he turns evenly from the one before to the one after.
+    """
+    angles, upright = heading_angle(matrices).numpy(), matrices[:, 1, 1].numpy() > TURNED_OVER
+    whole = [np.empty(0, angles.dtype)]
+    for span in spans:
+        own, frames = angles[span], np.flatnonzero(upright[span])
+        if len(frames) in (0, len(own)):
+            whole.append(np.unwrap(own))
+        else:
+            whole.append(np.interp(np.arange(len(own)), frames, np.unwrap(own[frames])))
+    return torch.as_tensor(np.concatenate(whole), dtype=matrices.dtype)
 
 
 def hastened(features: Tensor, times: float, frames: int | None = None) -> Tensor:
@@ -100,7 +107,7 @@ def encode_features(motion: Motion, *others: Motion) -> Tensor:
         return torch.cat([forward_difference(values[span], motion.fps) for span in spans])
 
     local, position = quaternion_to_matrix(joined("quaternions")), joined("root_position")
-    heading = _unwrapped(heading_angle(local[:, 0]), spans)  # T
+    heading = headings(local[:, 0], spans)  # T
     to_heading = yaw_to_matrix(-heading)  # T 3 3
     local = torch.cat(((to_heading @ local[:, 0])[:, None], local[:, 1:]), 1)
     velocity = (to_heading @ rate(position)[..., None]).squeeze(-1)

@@ -29,6 +29,7 @@ SURE = 0.0  # log odds: how sure it must be what a text asks for
 HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
 ONCE = 5.0  # seconds in which most is done once, at most
+REPEATED, LAP = (2.5, 3.0), 4.75  # seconds of one repetition, from … to; of many in one window
 PACES = {"walk": (0.4, 1.3), "run": (0.8, 1.4)}  # times as fast as usual, at least and at most
 ABOUT = 180.0  # degrees, which need no side
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
@@ -94,6 +95,20 @@ class Clause:
         """Seconds in which something is done once, of those that are asked for: who is slow takes
         longer, who is fast is done sooner; where they are more, it lasts as long as they do."""
         return seconds / self.tempo if seconds <= ONCE else seconds
+
+    def repeated(
+        self, seconds: float, fps: float, cycle: tuple[float, float] | None = None
+    ) -> tuple[int, int]:
+        """Frames of all repetitions, and of each window of them: of one, or of as many as fit into
+        it where they have a `cycle`, seconds of rest and from one to the next."""
+        if cycle is None:
+            once = round(min(max(seconds / self.count, REPEATED[0]), REPEATED[1]) * fps)
+            return once * self.count, once
+        rest, period = cycle
+        lap = self.count * period
+        windows = 1 if rest + lap <= ONCE else math.ceil(lap / (LAP - rest))
+        once = round((rest + math.ceil(self.count / windows) * period) * fps)
+        return round((windows * rest + lap) * fps), once
 
     @property
     def far(self) -> bool:

@@ -43,7 +43,7 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
-from .clause import GOING, Clause, Reading
+from .clause import GOING, REPEATED, Clause, Reading
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import (
     TURN_REST,
@@ -66,8 +66,8 @@ SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to b
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
-ONCE, CLAP = (2.5, 3.0), 2.0  # seconds of one repetition, from … to; of uncounted claps
-CLAP_PACE, TO_LAND = 2, 1.3  # times as fast as made people clap; seconds for a last step to land
+CLAP, TO_LAND = 2.0, 1.3  # seconds: of one of uncounted claps; for a last step to land
+CLAP_PACE = 2  # times as fast as made people clap
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST, STOP, UNEASY = 1.0, 1.0, 0.5  # seconds: to see an action, to stop; no rest, by a miss
@@ -221,12 +221,12 @@ class SentenceGenerator:
         if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
             lines = self.generator.scope_warnings([said], again=again)
             asked, made = self._nearest(said), self._nearest(texts[0])
-            same = {asked, made} in [{made}, *TWINS]
-            same = same or parts[0].plain or parts[0].degrees is not None
+            same = parts[0].degrees is not None or {asked, made} in [{made}, *TWINS]
             apart = not parts[0].plain and (lines != [None] or not same)
         if apart:
             lines = self.generator.scope_warnings(texts, again=again)
-        if not same and lines == [None] and parts[0].count > 1:
+        surer = self._reading(said).certainty >= self._reading(texts[0]).certainty
+        if not same and surer and lines == [None] and parts[0].count > 1:
             lines = [f"prompt {said!r} is {asked!r} by its number alone, and {made!r} without it;"
                      " say it in other words"]  # fmt: skip
         angled = {part.text for part in parts if part.degrees is not None}  # which says it
@@ -294,7 +294,7 @@ class SentenceGenerator:
                 # one bad window is none of those that follow; cleaned up: who drifts seems to fly
                 window = self.generator.post_processor(features[-latest:], None)
                 found = float(not wanted(measure(window)))
-            several = clause.count > 1 or (frames <= ONCE[1] * fps and self._is_single(clause))
+            several = clause.count > 1 or (frames <= REPEATED[1] * fps and self._is_single(clause))
             if several and (count := repetitions(action, seen, side)) is not None:
                 found = abs(count - round(clause.count * len(features) / frames))
             return found + UNEASY * (rests and len(features) >= frames and not ends_at_rest(motion))
@@ -374,7 +374,7 @@ class SentenceGenerator:
         self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None
     ) -> Motion:
         parts = self.clauses(text)
-        once = min(seconds, ONCE[1]) if len(parts) > 1 else seconds  # of several, each is done once
+        once = min(seconds, REPEATED[1]) if len(parts) > 1 else seconds  # each is done once
         times = [once if self._is_single(part) else seconds for part in parts]
         stretches = [self._stretch(p, s, tag, sampling) for p, s in zip(parts, times, strict=True)]
         (passage, given), action = stretches[-1], self._nearest(parts[-1].text)
@@ -528,8 +528,8 @@ class SentenceGenerator:
         elif clause.metres is not None:
             given = self._led(passage, clause, sampling, timed=exactly is not None)
         elif clause.count > 1:
-            once = round(float(np.clip(seconds / clause.count, *ONCE)) * fps)
-            frames = once * clause.count
+            cycle = self.scope.cycles.get(action or "") if self.scope and not exactly else None
+            frames, once = clause.repeated(seconds, fps, cycle)
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)
                 if once < LEAST * fps:

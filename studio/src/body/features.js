@@ -12,6 +12,7 @@ export const ROWS = 23;
 export const WIDTH = ROWS * 6; // numbers a frame
 export const ROOT = 22 * 6; // where the root row begins
 export const [FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT] = [0, 1, 2, 3, 4];
+const TURNED_OVER = -0.5; // how far up, of 1, the back of who has no heading points at most: 120 degrees
 export const ORIGIN = { x: 0, z: 0, heading: 0 };
 
 export const framesOf = (features) => features.length / WIDTH;
@@ -93,11 +94,22 @@ export function decodeFeatures(features, place = ORIGIN, text = "", fps = FPS) {
   return { frames, quaternions, root: Float32Array.from(path), contacts, fps, text };
 }
 
-/** Unwrapped heading [T] of a motion's pelvis. */
+/** Unwrapped heading [T] of a motion's pelvis; who is upside down has none, and turns evenly from the one before to the one after. */
 export function headingsOf(motion) {
-  const angles = new Float64Array(motion.frames);
-  for (let t = 0; t < motion.frames; t++) angles[t] = headingAngle(matrixOf(motion.quaternions, t * JOINTS * 4));
-  return unwrap(angles);
+  const angles = new Float64Array(motion.frames), upright = [];
+  for (let t = 0; t < motion.frames; t++) {
+    const pelvis = matrixOf(motion.quaternions, t * JOINTS * 4);
+    angles[t] = headingAngle(pelvis);
+    if (pelvis[4] > TURNED_OVER) upright.push(t);
+  }
+  if (!upright.length || upright.length === motion.frames) return unwrap(angles);
+  const kept = unwrap(Float64Array.from(upright, (t) => angles[t]));
+  for (let t = 0, next = 0; t < motion.frames; t++) {
+    while (next < upright.length && upright[next] < t) next++;
+    const [before, after] = [Math.max(next - 1, 0), Math.min(next, upright.length - 1)], apart = upright[after] - upright[before];
+    angles[t] = kept[before] + (kept[after] - kept[before]) * (apart ? clamp((t - upright[before]) / apart, 0, 1) : 0);
+  }
+  return angles;
 }
 
 export function placeOf(motion, t) {

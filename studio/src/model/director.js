@@ -13,7 +13,7 @@ import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
 const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
@@ -44,7 +44,8 @@ export class Director {
       const said = this.reader.whole(prompt, parts), [asked, made] = [said, texts[0]].map((text) => this.nearest(text));
       const same = this.scope.twins(made).includes(asked) || isPlain(parts[0]) || parts[0].degrees !== null, line = this.scope.warning(said);
       if (isPlain(parts[0]) || (line === null && same)) lines = [line];
-      if (!same && lines[0] === null && parts[0].count > 1) lines = [`“${said}” is “${asked}” by its number alone, and “${made}” without it; say it in other words.`];
+      const surer = this.reading(said).certainty >= this.reading(texts[0]).certainty;
+      if (!same && surer && lines[0] === null && parts[0].count > 1) lines = [`“${said}” is “${asked}” by its number alone, and “${made}” without it; say it in other words.`];
     }
     const angled = new Set(parts.filter(({ degrees }) => degrees !== null).map(({ text }) => text)); // the angle says it
     const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
@@ -311,11 +312,15 @@ export class Director {
     return clause.tempo * (claps && (clause.count > 1 || this.applauds(clause)) ? CLAP_PACE : 1);
   }
 
-  /** What a clause asks for several times, each in a window of its own. */
+  /** What a clause asks for several times, each in a window of its own, or as many as one holds of what is done in cycles. */
   repeated(clause, text, seconds, exactly) {
-    const { count } = clause;
-    const once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS);
-    const frames = exactly ?? once * count;
+    const { count } = clause, cycle = exactly === null && this.scope.meta.cycles?.[this.nearest(clause.text)];
+    let once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = exactly ?? once * count;
+    if (cycle) {
+      const [rest, period] = cycle, lap = count * period, windows = rest + lap <= AT_ONCE ? 1 : Math.ceil(lap / (LAP - rest));
+      once = round((rest + Math.ceil(count / windows) * period) * FPS);
+      frames = round((windows * rest + lap) * FPS);
+    }
     return { passage: { text, frames, afresh: this.beginsStanding(text), low: this.nearest(text) === "sit", window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
   }
 

@@ -1,5 +1,7 @@
 """Skeleton, kinematics, root track, contacts, resampling and mirroring."""
 
+import math
+
 import numpy as np
 import pytest
 import torch
@@ -16,12 +18,19 @@ from src.shared.motion.features import (
     decode_features,
     encode_features,
     hastened,
+    headings,
     mirror_features,
     without_drift,
 )
 from src.shared.motion.motion import Motion, in_place, resample_motion
 from src.shared.motion.postprocess.contacts import detect_contacts
-from src.shared.motion.rotations import global_to_local, local_to_global
+from src.shared.motion.rotations import (
+    axis_angle_to_matrix,
+    global_to_local,
+    heading_angle,
+    local_to_global,
+    yaw_to_matrix,
+)
 from src.shared.motion.skeleton import (
     JOINT_INDEX,
     JOINT_NAMES,
@@ -229,3 +238,20 @@ def test_what_is_hastened_goes_as_far_in_its_time(frames: int, times: float, see
     assert len(hastened(features, times, 17)) == 17
     if len(fast) > 1:
         torch.testing.assert_close(fast[-1, :22], features[-1, :22])  # no step to what follows
+
+
+@pytest.mark.parametrize("axis", [0, 2])  # over the head, and over a side
+def test_who_turns_over_turns_evenly_about_the_vertical(axis: int) -> None:
+    """The twist about +Y goes half round in a frame or two where a pelvis is upside down."""
+    frames = 40
+    angle = torch.linspace(0, 2 * math.pi, frames)
+    wobble = axis_angle_to_matrix(2 - axis, 0.3 * torch.sin(angle / 2))
+    over = yaw_to_matrix(torch.full((frames,), 0.7)) @ axis_angle_to_matrix(axis, angle) @ wobble
+    told = headings(over)
+    assert (told - 0.7).abs().max() < 0.5
+    assert told.diff().abs().max() < 0.15
+    twists = np.unwrap(heading_angle(over).numpy())
+    assert np.abs(np.diff(twists)).max() > 0.5
+    assert torch.equal(headings(over[:0]), torch.zeros(0))
+    upside = over[18:22]  # nobody can say: as they are
+    np.testing.assert_allclose(headings(upside), np.unwrap(heading_angle(upside).numpy()))

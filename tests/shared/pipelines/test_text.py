@@ -693,3 +693,21 @@ def test_hands_meet_where_a_person_claps(starter: TextToMotion) -> None:
         [motion] = SentenceGenerator(starter).generate(["a person claps"], seconds=4.0, seed=seed)
         hands = motion.positions()[:, [JOINT_INDEX[f"{side}_wrist"] for side in "lr"]]
         assert np.linalg.norm(hands[:, 0] - hands[:, 1], axis=-1).min() < 0.12
+
+
+@pytest.mark.parametrize(
+    ("prompt", "most"),
+    [
+        ("nods three times", 3.0),
+        ("schüttelt viermal den Kopf", 4.0),
+        ("hops on one leg twice", 3.0),
+    ],
+)
+def test_what_is_done_in_cycles_takes_the_time_of_so_many(
+    prompt: str, most: float, loaded: TextToMotion
+) -> None:
+    """Each had 2.5 s or more, in which it was done two or three times."""
+    sentences = SentenceGenerator(loaded)
+    [motion] = sentences.generate([prompt])
+    assert 2.0 <= motion.seconds <= most
+    assert sentences.scope_warnings([prompt]) == [None]

@@ -80,6 +80,15 @@ def test_a_clip_is_done_again_and_continued_as_on_the_command_line(
     given = continue_clips(clip, clip, seconds=3.0, rejoin=True)
     assert generator.edit(given, "a person jumps", sampling=Sampling(seed=1)).warning
     assert "does not show “jump”" in text_of(browser, "warnings")
+    [over] = generator.generate(["a person does a cartwheel"], seconds=1.8)
+    path = write_bvh(over, tmp_path / "over.bvh")
+    opened(browser, "over.bvh", path.read_bytes())
+    made(browser, scene, form(mode="continue", keep=1, joints="all"))
+    clip = read_motion(path).frames(over.num_frames - 30, over.num_frames)
+    assert (clip.positions()[:, 12, 1] < clip.positions()[:, 0, 1]).any()  # upside down at first
+    given = continue_clips(clip, seconds=3.0)
+    wanted = generator.edit(given, "a person waves", sampling=Sampling(seed=1))
+    assert_same(exported(browser, tmp_path), wanted.motion)
     assert "3.00 seconds" in opened(
         browser, "walk.glb", write_glb(walk, tmp_path / "a.glb").read_bytes()
     )

@@ -129,6 +129,8 @@ class OutOfDomainDetector:
         arms: actions done with the arms alone.
         still: actions that end where they began, and face the same way.
         checked: actions that `metrics.measurements` tells, as captured clips bear out.
+        cycles: actions done again and again in one go -> seconds of rest before and after, and
+            from one to the next.
         captions: `caption_key` of a training caption -> its action; older folders have none.
     """
 
@@ -150,6 +152,7 @@ class OutOfDomainDetector:
     arms: tuple[str, ...] = ()
     still: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
+    cycles: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     captions: Mapping[int, int] = field(default_factory=dict)
 
     @classmethod
