@@ -25,7 +25,7 @@ from ..model.generation.motion_generator import TextToMotion
 from ..model.noise import derived_seed, retry_seeds
 from ..motion.features import ROOT_ROW, Place, decode_features
 from ..motion.motion import Motion
-from ..motion.postprocess.stitching import blend_boundaries, bridge, leaps, posture
+from ..motion.postprocess.stitching import blend_boundaries, bridge, gone_down, leaps, posture
 from ..motion.postprocess.streaming import StreamingPostProcessor
 from ..motion.skeleton import JOINT_INDEX
 from ..tensors import Tensor, torch
@@ -194,6 +194,9 @@ def stream_features(
             piece, best = nearest_to_wanted(tries, own, passage.miss)
             lucky = [noises[best]] if passage.window else []
             if bridges(passage) and not len(shared) and len(before) and is_apart(before, piece):
+                if passage.timed is None:  # who lies down on his knees does not stand up for it
+                    piece = piece[gone_down(before[-1], piece) :]
+                    made, length = made + max(length - len(piece), 0), min(length, len(piece))
                 way = bridge(before, piece, fps)
                 if passage.timed is not None:  # a part of what the passage has
                     cut = min(len(way), length // 2)

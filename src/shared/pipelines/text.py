@@ -453,7 +453,7 @@ class SentenceGenerator:
         for at, join in enumerate(starts[1:-1]):  # who gets up
             if low[at] and not low[at + 1]:
                 begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
-                led |= lead_height(given, join, begin, end, fps)
+                led |= end > begin and lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
         features, spans = spanned_features(

@@ -27,6 +27,7 @@ const WAYS = {
   crouched: [], standing: ["crouched"], seated: ["crouched"], prone: ["propped", "crouched"],
   lying: ["seated", "crouched"], airborne: ["standing", "crouched"],
 };
+const HIGH = ["standing", "airborne"];
 
 const heightOf = (features, t) => features[t * WIDTH + ROOT + HEIGHT];
 const upOf = (features, t) => { const m = matrixOf6d(features, t * WIDTH); return [m[1], m[4], m[7]]; };
@@ -57,6 +58,18 @@ export function posture(features, t) {
 
 /** Whether a piece begins in another posture than the frames before it end in. */
 export const isApart = (before, piece) => posture(before, framesOf(before) - 1) !== posture(piece, 0);
+
+/** From which frame on a piece is for who is low already, as the frames before it end: where posture and height are nearest to that, of what follows when it has gone down. */
+export function goneDown(before, piece) {
+  const start = posture(before, framesOf(before) - 1), postures = Array.from({ length: framesOf(piece) }, (_, t) => posture(piece, t));
+  const down = postures.findLastIndex((name) => HIGH.includes(name)) + 1;
+  if (HIGH.includes(start) || !HIGH.includes(postures[0]) || down === postures.length) return 0;
+  const far = postures.map((name, t) => { // metres, and ten of them for each posture
+    const postured = t < down ? Infinity : name === start ? 0 : 10 + 10 * between(start, name).length;
+    return postured + Math.abs(Math.fround(heightOf(piece, t) - heightOf(before, framesOf(before) - 1)));
+  });
+  return far.indexOf(Math.min(...far));
+}
 
 /** Frames from how a body was to how it begins, by way of the postures between. */
 export function bridge(before, after, longest = Infinity) {

@@ -231,12 +231,12 @@ export class Director {
       const pair = parts.slice(i - 1, i + 1), heights = [];
       if (!low(pair[0]) || low(pair[1])) continue;
       for (const { text } of pair) heights.push((await naturalGait(this.sampler, text, seed)).height);
-      const down = heights[1] - heights[0], start = Math.max(starts[i] - DOWN_AHEAD, 1);
-      const frames = Math.min(round((Math.abs(down) / DOWN_SPEED) * FPS), framesOf(given.values) - start);
-      if (Math.abs(down) < DOWN) continue;
+      const up = heights[1] - heights[0], start = Math.max(starts[i] - DOWN_AHEAD, 1);
+      const frames = Math.min(round((up / DOWN_SPEED) * FPS), framesOf(given.values) - start);
+      if (up < DOWN) continue;
       for (let t = 0; t < frames; t++) {
         const way = frames > 1 ? t / (frames - 1) : 0, at = (start + t) * WIDTH + ROOT + HEIGHT;
-        if (!given.known[at]) given.values[at] = heights[0] + down * way ** 3 * (10 - 15 * way + 6 * way * way);
+        if (!given.known[at]) given.values[at] = heights[0] + up * way ** 3 * (10 - 15 * way + 6 * way * way);
         given.known[at] = 1;
       }
       found = true;

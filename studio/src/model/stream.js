@@ -1,7 +1,7 @@
 // Motion of any length: windows that begin with the last frames before them
 // (src/shared/pipelines/stream.py).
 
-import { bridge, isApart, leaps } from "../body/bridge.js";
+import { bridge, goneDown, isApart, leaps } from "../body/bridge.js";
 import { cut, decodeFeatures, framesOf, joinArrays, ROOT, WIDTH } from "../body/features.js";
 import { StreamingPostProcessor } from "../body/streaming.js";
 import { endsAtRest } from "../body/measurements.js";
@@ -162,6 +162,11 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
         if (least <= 0) break;
       }
       if (bridges(passage) && !shared.length && before.length && isApart(before, best)) {
+        if (!passage.timed) { // who lies down on his knees does not stand up for it
+          best = cut(best, goneDown(before, best));
+          made += Math.max(length - framesOf(best), 0);
+          length = Math.min(length, framesOf(best));
+        }
         let way = bridge(before, best);
         if (passage.timed) { // a part of what the passage has
           const first = Math.min(framesOf(way), Math.floor(length / 2));

@@ -210,6 +210,7 @@ WAYS: dict[str, tuple[str, ...]] = {
     "lying": ("seated", "crouched"),
     "airborne": ("standing", "crouched"),
 }  # from each posture to where all ways meet
+HIGH = ("standing", "airborne")
 
 
 def leaps(pose: Tensor, piece: Tensor, fps: float) -> bool:
@@ -224,6 +225,18 @@ def leaps(pose: Tensor, piece: Tensor, fps: float) -> bool:
 def posture(pose: Tensor) -> str:
     """One of `WAYS` for a pose [R,6]."""
     return _posture(rotation_6d_to_quaternion(pose[:NUM_JOINTS].double()), _height(pose))
+
+
+def gone_down(pose: Tensor, piece: Tensor) -> int:
+    """From which frame on a piece [T,R,6] is for who is low already in a pose [R,6]: where posture
+    and height are nearest to that, of what follows when it has gone down. 0 where it does not."""
+    start, postures = posture(pose), [posture(each) for each in piece]
+    high = [at for at, name in enumerate(postures) if name in HIGH]
+    if start in HIGH or not postures or postures[0] not in HIGH or high[-1] + 1 == len(postures):
+        return 0
+    far = (piece[:, ROOT_ROW, HEIGHT] - pose[ROOT_ROW, HEIGHT]).abs().tolist()
+    low = range(high[-1] + 1, len(postures))
+    return min(low, key=lambda at: (_apart(start, postures[at]), far[at]))
 
 
 def bridge(before: Tensor, after: Tensor, fps: float, longest: int | None = None) -> Tensor:
@@ -308,6 +321,10 @@ def _between(start: str, stop: str) -> list[str]:
     met = next(name for name in there if name in back)
     way = there[: there.index(met) + 1] + back[: back.index(met)][::-1]
     return way[1:-1]
+
+
+def _apart(start: str, stop: str) -> int:
+    return 0 if start == stop else 1 + len(_between(start, stop))
 
 
 def _middle(joints: Tensor, name: str) -> Tensor:

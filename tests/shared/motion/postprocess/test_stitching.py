@@ -16,6 +16,7 @@ from src.shared.motion.postprocess.stitching import (
     blend_boundaries,
     blend_cuts,
     bridge,
+    gone_down,
     leaps,
     posture,
 )
@@ -190,3 +191,16 @@ def test_a_leap_is_farther_than_a_body_gets() -> None:
     assert not leaps(standing[0], standing, 30.0)
     late = torch.cat((standing[:20], lying))
     assert not leaps(standing[0], late, 30.0)
+
+
+def test_who_is_low_does_not_stand_up_to_lie_down() -> None:
+    """He goes on where what begins standing is nearest to him when it has gone down."""
+    down = [still(name) for name in ("standing", "crouched", "seated", "lying")]
+    frames = len(down[0])
+    piece = torch.cat(down)
+    assert gone_down(still("seated")[-1], piece) == 2 * frames
+    assert gone_down(still("prone")[-1], piece) == frames  # by hands and feet to a crouch
+    assert gone_down(still("standing")[-1], piece) == 0
+    assert gone_down(still("seated")[-1], piece[frames:]) == 0  # begins low
+    assert gone_down(still("seated")[-1], torch.cat((piece, down[0]))) == 0  # stands at the end
+    assert gone_down(still("seated")[-1], piece[:0]) == 0
