@@ -30,6 +30,8 @@ SCRIPT = """
 import sys
 import bpy
 
+if bpy.app.version < (4, 2):
+    sys.exit(f"it is Blender {bpy.app.version_string}, and 4.2 or newer is needed")
 source, target, fps = sys.argv[sys.argv.index("--") + 1 :]
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene

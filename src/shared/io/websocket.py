@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 from ..errors import UserError
 
 HOST, MAX_TEXT, MAX_HEAD = "127.0.0.1", 4096, 8192
+SLOW, GREETING = 0.25, 5.0  # seconds: to take what is sent; for a handshake
 _MAGIC = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # RFC 6455, section 1.3
 _MORE, _TEXT, _CLOSE, _PING, _PONG = 0, 1, 8, 9, 10
 _OWN = ("localhost", "127.0.0.1", "[::1]", "::1", None)
@@ -56,7 +57,7 @@ class WebSocketServer:
             self._leave(client)
 
     def send(self, text: str) -> None:
-        """To everybody; who cannot take it is let go."""
+        """To everybody; who does not take it, as what was sent before waits to be read, is let go."""
         for client in list(self._clients):
             self._send(client, _TEXT, text.encode())
 
@@ -69,13 +70,13 @@ class WebSocketServer:
             threading.Thread(target=self._serve, args=(client,), daemon=True).start()
 
     def _serve(self, client: socket.socket) -> None:
-        client.settimeout(5.0)
+        client.settimeout(GREETING)
         try:
             answer = _handshake(client)
             client.sendall(answer)
             if not answer.startswith(b"HTTP/1.1 101"):
                 return
-            client.settimeout(None)
+            client.settimeout(SLOW)
             with self._lock:
                 self._clients.add(client)
             begun: bytes | None = None  # of a text in parts
@@ -169,7 +170,10 @@ def _read_frame(client: socket.socket) -> tuple[int, bytes, bool] | None:
 def _exactly(client: socket.socket, size: int) -> bytes | None:
     data = b""
     while len(data) < size:
-        more = client.recv(size - len(data))
+        try:
+            more = client.recv(size - len(data))
+        except TimeoutError:  # that of sending: nobody has to say anything
+            continue
         if not more:
             return None
         data += more

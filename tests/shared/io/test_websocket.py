@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 
 from src.shared.errors import UserError
-from src.shared.io.websocket import WebSocketServer
+from src.shared.io.websocket import SLOW, WebSocketServer
 
 KEY = "dGhlIHNhbXBsZSBub25jZQ=="  # RFC 6455, section 1.2, with the answer that it prints
 ANSWER = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo="
@@ -116,3 +116,35 @@ def test_foreign_pages_are_refused(server: WebSocketServer) -> None:
 def test_a_taken_port_is_one_line(server: WebSocketServer) -> None:
     with pytest.raises(UserError, match=f"--websocket {server.port}: .*choose another"):
         WebSocketServer(server.port, print)
+
+
+def test_who_does_not_read_is_let_go_and_others_go_on(server: WebSocketServer) -> None:
+    """A stopped page held the frames of all, and the end of the program."""
+    stuck, other = joined(server), joined(server)
+    until(lambda: len(server._clients) == 2)
+    text, sent, got = "a" * 60_000, 0, 0
+    while len(server._clients) == 2:
+        begun = time.monotonic()
+        server.send(text)
+        assert time.monotonic() - begun < 3.0
+        sent += 1
+        assert sent < 2_000
+        while got < sent * (4 + len(text)):
+            got += len(other.recv(1 << 16))
+    server.send("b")
+    assert other.recv(3) == b"\x81\x01b"
+    begun = time.monotonic()
+    server.__exit__()
+    assert time.monotonic() - begun < 3.0
+    stuck.close()
+
+
+def test_who_says_nothing_for_a_while_is_heard_later(
+    server: WebSocketServer, heard: list[str]
+) -> None:
+    client = joined(server)
+    time.sleep(2 * SLOW)
+    client.sendall(masked(1, b"walks")[:4])
+    time.sleep(2 * SLOW)
+    client.sendall(masked(1, b"walks")[4:])
+    until(lambda: heard == ["walks"])
