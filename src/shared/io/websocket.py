@@ -57,7 +57,7 @@ class WebSocketServer:
             self._leave(client)
 
     def send(self, text: str) -> None:
-        """To everybody; who does not take it, as what was sent before waits to be read, is let go."""
+        """To everybody; who does not take it within `SLOW` seconds is let go."""
         for client in list(self._clients):
             self._send(client, _TEXT, text.encode())
 
