@@ -852,16 +852,28 @@ def sit_floor(scene: Scene) -> Body:
 
 
 def die(scene: Scene) -> Body:
-    """Hit in the chest, the knees give way, down onto the back, and still."""
+    """Hit in the chest, a hand to it, down onto the knees, ahead onto the floor, and still."""
     body = scene.standing(width=0.22)
-    hit = moment(scene, (0, 0), (0.22, 1), (0.7, 0))
-    down(body, moment(scene, (0.3, 0), (1.05, 1)), moment(scene, (0.62, 0), (1.35, 1)))
-    for side in (LEFT, RIGHT):
-        pose_arm(body, side, hit, flex=58, abduct=42, elbow=50)
-        out = moment(scene, (0.9, 0), (1.4, 1))
-        pose_arm(body, side, out, flex=5, abduct=66, elbow=18)
-    lean(body, -16 * hit)
-    nod_by(body, -12 * hit, 18 * moment(scene, (1.1, 0), (1.45, 1)))
+    hit, held = moment(scene, (0, 0), (0.22, 1), (0.7, 0)), moment(scene, (0.05, 0), (0.35, 1))
+    knees, fall = moment(scene, (0.3, 0), (0.95, 1)), moment(scene, (1.05, 0), (1.75, 1))
+    slides = moment(scene, (0.95, 0), (1.65, 1))  # the shins give way first
+    lean(body, -14 * hit + 16 * knees * (1 - fall), aside=5 * knees)
+    body.position[:, 1] += knees * (0.50 - body.position[:, 1])
+    body.position[:, 1] += fall * (0.13 - body.position[:, 1])
+    body.position[:, 2] += 0.36 * knees + 0.66 * slides
+    body.pitch[:] += np.radians(85) * fall
+    body.spine[:] *= 1 - 0.8 * fall[:, None]
+    body.foot_pitch[:] -= 1.1 * knees[:, None] + 0.8 * fall[:, None]
+    body.foot_yaw[:] *= 1 - fall[:, None]
+    body.ball[:, RIGHT, 2] -= 0.10 * knees
+    body.ball[..., 1] += 0.02 * fall[:, None]
+    body.contacts[fall > 0.05] = 0.0
+    chest = held * (1 - fall)
+    hand(body, RIGHT, chest, (-0.12, -0.18, 0.20), elbow=(0.7, -0.8, 0.1))
+    pose_arm(body, LEFT, knees * (1 - fall), flex=10, abduct=24, elbow=25)
+    pose_arm(body, LEFT, fall, flex=128, abduct=42, elbow=38, twist=0)
+    pose_arm(body, RIGHT, fall, flex=4, abduct=40, elbow=22)
+    nod_by(body, -10 * hit + 18 * knees * (1 - fall) - 8 * fall, 55 * fall)
     return body
 
 

@@ -113,9 +113,11 @@ def write_text(path: Place, text: str) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
-def write_json(path: Place, value: Any, *, indent: int = 1) -> None:
-    """Write JSON with stable key order, whole or not at all."""
-    write_text(path, json.dumps(value, indent=indent, ensure_ascii=False, sort_keys=True) + "\n")
+def write_json(path: Place, value: Any, *, indent: int | None = 1) -> None:
+    """Write JSON with stable key order, whole or not at all; without an indent in one line."""
+    apart = (",", ":") if indent is None else None
+    form = json.dumps(value, indent=indent, separators=apart, ensure_ascii=False, sort_keys=True)
+    write_text(path, f"{form}\n")
 
 
 def read_text(path: Path, wanted: str) -> str:

@@ -190,7 +190,7 @@ def _staying(text: str, read: Read) -> str:
         action, said = None if denied else next(filter(None, tried), None), ""
         stays, comes = (each.match(text, match.start()) for each in (words.held, words.halts))
         # "crouches and stays down", not "sneaks, staying low"
-        if stays and not denied and action in ("crouch-walk", "dodge", None):
+        if stays and not denied and action in ("crouch-walk", "crouch", "dodge", None):
             whole = action and read(measured(trimmed(own + match[0])).text).surely
             if whole == "squat" or words.crouches.search(own):
                 left, action = f"{left[: len(left) - len(own)]}{SQUATS}", "squat"

@@ -199,7 +199,7 @@ export class SentenceReader {
       const denied = /[不没别勿]/u.test(left.slice(-4));
       if (denied) action = null;
       const [stays, comes] = ["held", "halts"].map((name) => this.match(name, text, match.index, true));
-      if (stays && !denied && ["crouch-walk", "dodge", null].includes(action)) { // "crouches and stays down", not "sneaks, low"
+      if (stays && !denied && ["crouch-walk", "crouch", "dodge", null].includes(action)) { // "crouches and stays down", not "sneaks, low"
         const whole = action && surely(this.reading(this.trimmed(own + match[0])));
         if (whole === "squat" || this.first.crouches.test(own)) [left, action] = [left.slice(0, left.length - own.length) + SQUATS, "squat"];
       }

@@ -383,7 +383,7 @@ class OutOfDomainDetector:
         meta = {name.replace("_", "-"): getattr(self, name) for name in names}
         meta |= {name: " ".join(sorted(getattr(self, name))) for name in WORDS}
         meta |= {"reliability": dict(self.reliability)}
-        write_json(folder / META_FILE, meta, indent=0)
+        write_json(folder / META_FILE, meta, indent=None)
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
