@@ -30,7 +30,9 @@ HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
 ONCE = 5.0  # seconds in which most is done once, at most
 REPEATED, LAP = (2.5, 3.0), 4.75  # seconds of one repetition, from … to; of many in one window
+LONG_REST = 1.0  # seconds before and after a cycle: who rests for less goes on in the next window
 PACES = {"walk": (0.4, 1.3), "run": (0.8, 1.4)}  # times as fast as usual, at least and at most
+HOP = ("hop", "hops on one leg")  # an action, and words for it
 ABOUT = 180.0  # degrees, which need no side
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
@@ -43,12 +45,14 @@ class Reading(NamedTuple):
         certainty: log odds that this is it.
         arms: whether the arms alone do it.
         known: whether it is near enough to what was learned.
+        handed: the side, left or right, that alone was learned to do it; "" where that is not so.
     """
 
     action: str | None = None
     certainty: float = -math.inf
     arms: bool = False
     known: bool = True
+    handed: str = ""
 
     @property
     def surely(self) -> str | None:
@@ -75,6 +79,7 @@ class Clause:
         seat: what the body goes on to do meanwhile, who sits or kneels.
         held: whether it stays as it is when it is done, to the end.
         tempo: how many times as fast as usual.
+        hand: left or right, where it says with which of what is learned of one of them alone.
         unheard: of the last of some clauses, the words beside them of which nothing is made.
     """
 
@@ -89,6 +94,7 @@ class Clause:
     seat: str = ""
     held: bool = False
     tempo: float = 1.0
+    hand: str = ""
     unheard: str = ""
 
     def lasting(self, seconds: float) -> float:
@@ -106,7 +112,10 @@ class Clause:
             return once * self.count, once
         rest, period = cycle
         lap = self.count * period
-        windows = 1 if rest + lap <= ONCE else math.ceil(lap / (LAP - rest))
+        least = 1 if rest + lap <= ONCE else math.ceil(lap / (LAP - rest))
+        most = self.count if rest >= LONG_REST else self.count // 2  # one each, or two at least
+        even = (number for number in range(least, most + 1) if self.count % number == 0)
+        windows = next(even, least)  # windows are alike in length
         once = round((rest + math.ceil(self.count / windows) * period) * fps)
         return round((windows * rest + lap) * fps), once
 
@@ -214,6 +223,20 @@ def without_tempo(text: str) -> tuple[str, float]:
     while said := words.tempo.search(text):
         text = without(text, said)  # no blank is left where writing has none
     return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", text), found.pop()
+
+
+def with_hand(text: str, read: Read) -> Clause | None:
+    """A clause without the words that say with which hand or foot it is done, where one of them
+    alone was learned ("salutes with the left hand", which is nearer to waves)."""
+    if (said := all_words().handed.search(text)) is None:
+        return None
+    clause, side = measured(without(text, said)), side_of(said[0])
+    if (whole := read(text)).surely == HOP[0]:  # without a foot it is a jump
+        clause = replace(measured(text), text=HOP[1])
+    own = whole if clause.text == HOP[1] else read(clause.text)
+    if side == "both" or not own.handed or not own.known:
+        return None
+    return replace(clause, hand=side)
 
 
 def in_tempo(clause: Clause, read: Read) -> Clause:

@@ -23,6 +23,7 @@ from .clause import (
     in_tempo,
     measured,
     trimmed,
+    with_hand,
     without,
     without_tempo,
 )
@@ -83,6 +84,8 @@ def clauses(
     def known(text: str) -> Reading:
         own = (own for name, (own, _) in PLAINLY.items() if _says(name, text, read))
         found = next(own, None) or read(_bared(text, read))
+        if clause := with_hand(text, read):
+            return read(clause.text)
         if found.surely is None and (rest := without_tempo(text)[0]) not in ("", text):
             paced = known(rest)  # how fast is no part of what is done
             return paced if paced.surely else found
@@ -94,7 +97,7 @@ def clauses(
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], known, in_row=in_row) if others else None
-            clause = pair or _parted(first, known) or measured(first)
+            clause = pair or with_hand(first, read) or _parted(first, known) or measured(first)
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
         found[-1] = replace(found[-1], unheard=unheard or found[-1].unheard)

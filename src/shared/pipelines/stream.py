@@ -23,7 +23,7 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..model.noise import derived_seed, retry_seeds
-from ..motion.features import ROOT_ROW, Place, decode_features
+from ..motion.features import ROOT_ROW, Place, decode_features, mirror_features
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries, bridge, gone_down, leaps, posture
 from ..motion.postprocess.streaming import StreamingPostProcessor
@@ -55,6 +55,7 @@ class Passage:
         timed: frames in which it is shown, where its time is told: a way to how it begins is a part
             of them.
         low: whether one goes down to it by a way of its own, however it would go on.
+        mirrored: whether it is the mirror image of what the text shows.
     """
 
     text: str
@@ -64,6 +65,7 @@ class Passage:
     miss: Miss | None = None
     timed: int | None = None
     low: bool = False
+    mirrored: bool = False
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -115,6 +117,7 @@ def stream_features(
     made, number, said, fps = 0, 0, "", generator.card.fps
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
+        asked_for = padded(known, 0, SHORTEST - len(known))
         (features,) = generator.sample_features(
             [passage.text],
             seconds=max(len(known), SHORTEST) / fps,
@@ -123,8 +126,9 @@ def stream_features(
             steps=sampling.steps,
             sampler=sampling.sampler,
             guidance_scale=sampling.guidance_scale,
-            constraints=[padded(known, 0, SHORTEST - len(known))],
+            constraints=[asked_for.mirrored() if passage.mirrored else asked_for],
         )
+        features = mirror_features(features) if passage.mirrored else features
         return blend_boundaries(features[: len(known)], known.known)
 
     asked: dict[tuple[int, int, int], Tensor] = {}  # samples of a window: frames, seed, shared ones

@@ -66,8 +66,7 @@ SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to b
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
-CLAP, TO_LAND = 2.0, 1.3  # seconds: of one of uncounted claps; for a last step to land
-CLAP_PACE = 2  # times as fast as made people clap
+CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
 LEAST, STOP, UNEASY = 1.0, 1.0, 0.5  # seconds: to see an action, to stop; no rest, by a miss
@@ -237,8 +236,6 @@ class SentenceGenerator:
         lines += [self._strange(text) or f"nothing is made of {text!r}" for text in unheard]
         return self._lines.setdefault(prompt, lines) if again else lines
 
-    # ------------------------------------------------------------ one sentence
-
     def _by_arms(self, text: str) -> bool:
         """Whether a text asks for what arms do while the feet stand: its motion faces one way."""
         return self.scope is not None and self._nearest(text) in self.scope.arms
@@ -308,7 +305,8 @@ class SentenceGenerator:
             return Reading()
         action = found.nearest[0]
         one = next((min(twins) for twins in TWINS if action in twins), action)
-        return Reading(one, found.certainty, action in scope.arms, found.known)
+        arms, hand = action in scope.arms, scope.handed.get(action, "")
+        return Reading(one, found.certainty, arms, found.known, hand)
 
     def _nearest(self, text: str) -> str | None:
         """The action that is nearest to a text, whether or not it is what the text tells of."""
@@ -518,7 +516,8 @@ class SentenceGenerator:
         elif action not in GOING:
             seconds = clause.lasting(seconds)
         frames, seconds = max(1, round(max(1, round(seconds * fps)) * pace)), seconds * pace
-        passage = Passage(clause.text, frames, tag, timed=exactly, low=action == "sit")
+        other, low = clause.hand not in ("", self._reading(clause.text).handed), action == "sit"
+        passage = Passage(clause.text, frames, tag, timed=exactly, low=low, mirrored=other)
         exactly = exactly and frames
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames

@@ -264,6 +264,9 @@ class Words:
         held = rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}"
         self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
         self.arms, self.about = (re.compile(_any(all_of(w)), re.I) for w in ("limbs", "about"))
+        tool, side = _any([*all_of("limbs"), *all_of("legs")]), _any(all_of("sided"))
+        tool = rf"{_any(all_of('wields'))}\s+(?:{whose}\s+)?(?:{side}\s+{tool}|{tool}\s+{side})"
+        self.handed = Rare(rf"{tool}|{_any(all_of('handed'))}", all_of("sided") + all_of("handed"))
         refused = rf"{_any(all_of('refuses'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
         who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
@@ -301,10 +304,8 @@ class Words:
 
 def _lead() -> str:
     """Words before a measure that mean nothing without it."""
-    leads = (
-        "for|during|by|about|around|roughly|durante|por|unos|unas|pendant|environ|de"
-        "|für|um|von|etwa|ungefähr|rund"
-    )
+    leads = "for|during|by|about|around|roughly|durante|por|unos|unas|pendant|environ|de"
+    leads += "|für|um|von|etwa|ungefähr|rund"
     return rf"(?:(?<!\w)(?:{leads})\s+)*"
 
 

@@ -6,12 +6,13 @@ import {
   write6d, yawMatrix,
 } from "./rotations.js";
 import { round } from "./curves.js";
-import { FPS, JOINTS } from "./skeleton.js";
+import { FPS, INDEX, JOINTS, SKELETON } from "./skeleton.js";
 
 export const ROWS = 23;
 export const WIDTH = ROWS * 6; // numbers a frame
 export const ROOT = 22 * 6; // where the root row begins
 export const [FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT] = [0, 1, 2, 3, 4];
+const MIRROR_SIGNS = [1, -1, -1, -1, 1, 1]; // of the first two columns of a matrix
 const TURNED_OVER = -0.5; // how far up, of 1, the back of who has no heading points at most: 120 degrees
 export const ORIGIN = { x: 0, z: 0, heading: 0 };
 
@@ -53,6 +54,21 @@ export function hastened(features, times, frames = Math.max(1, round(framesOf(fe
     columns.forEach((column, i) => { fast[t * WIDTH + ROOT + column] = way(gone[i], (t + 1) * (made / frames)) - way(gone[i], t * (made / frames)); });
   }
   return fast;
+}
+
+/** The mirror image of features [T,R,6], or of a mask of their entries. */
+export function mirrored(values, mask = false) {
+  const found = new values.constructor(values.length), { names } = SKELETON;
+  const places = names.map((name) => INDEX[name.replace(/^[lr]_/u, (side) => (side === "l_" ? "r_" : "l_"))]);
+  for (let row = 0; row < values.length; row += 6) {
+    const joint = (row / 6) % (JOINTS + 1), from = row + 6 * ((places[joint] ?? joint) - joint), root = joint === JOINTS;
+    for (let c = 0; c < 6; c++) {
+      const of = root && c >= LEFT_CONTACT ? (c === LEFT_CONTACT ? c + 1 : c - 1) : c;
+      const sign = root ? ([LATERAL, YAW_RATE].includes(c) ? -1 : 1) : MIRROR_SIGNS[c];
+      found[row + c] = (mask ? 1 : sign) * values[from + of];
+    }
+  }
+  return found;
 }
 
 export function joinArrays(parts, Kind = Float32Array) {

@@ -13,7 +13,7 @@ import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
 const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
@@ -30,9 +30,9 @@ export class Director {
 
   /** What a text alone asks for, even where it seldom comes out. */
   reading(text) {
-    if (!text) return { action: null, certainty: -Infinity, arms: false };
+    if (!text) return { action: null, certainty: -Infinity, arms: false, handed: "" };
     const { nearest: [action], certainty, known } = this.scope.check(text);
-    return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action), known };
+    return { action: this.scope.twins(action)[0], certainty, arms: this.scope.meta.arms.includes(action), known, handed: this.scope.meta.handed?.[action] ?? "" };
   }
 
   /** Lines about sentences that the model hardly knows, or that count more than their seconds hold; null where all is well. */
@@ -263,7 +263,8 @@ export class Director {
     seconds *= pace;
     if (exactly !== null) exactly = frames;
     const low = this.nearest(text) === "sit"; // gone down to by a way of its own
-    const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh, low }, given });
+    const mirrored = !["", this.reading(text).handed].includes(clause.hand);
+    const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh, low, mirrored }, given });
     if (this.applauds(clause) && !(await this.turns(clause))) {
       const claps = Math.max(1, round(seconds / CLAP));
       if (claps > 1) return this.repeated({ ...clause, count: claps }, CLAPS, seconds, frames);
@@ -288,9 +289,9 @@ export class Director {
       }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
-    if (count > 1) return this.repeated(clause, text, seconds, exactly);
-    if (clause.held) return led(await this.held(clause, frames, seed));
-    return { passage: { text, frames, afresh, low, miss: this.miss(clause, frames) } };
+    if (count > 1) return this.repeated(clause, text, seconds, exactly, mirrored);
+    if (clause.held) return led(await this.held(clause, frames, seed, mirrored));
+    return { passage: { text, frames, afresh, low, mirrored, miss: this.miss(clause, frames) } };
   }
 
   /** Whether a clause asks for something that is seen once, and for no more of it. */
@@ -313,15 +314,19 @@ export class Director {
   }
 
   /** What a clause asks for several times, each in a window of its own, or as many as one holds of what is done in cycles. */
-  repeated(clause, text, seconds, exactly) {
+  repeated(clause, text, seconds, exactly, mirrored = false) {
     const { count } = clause, cycle = exactly === null && this.scope.meta.cycles?.[this.nearest(clause.text)];
     let once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = exactly ?? once * count;
     if (cycle) {
-      const [rest, period] = cycle, lap = count * period, windows = rest + lap <= AT_ONCE ? 1 : Math.ceil(lap / (LAP - rest));
+      const [rest, period] = cycle, lap = count * period, least = rest + lap <= AT_ONCE ? 1 : Math.ceil(lap / (LAP - rest));
+      const most = rest >= LONG_REST ? count : Math.floor(count / 2); // one in each window, or two at least
+      let windows = least;
+      while (windows <= most && count % windows) windows++; // which are alike in length
+      if (windows > most) windows = least;
       once = round((rest + Math.ceil(count / windows) * period) * FPS);
       frames = round((windows * rest + lap) * FPS);
     }
-    return { passage: { text, frames, afresh: this.beginsStanding(text), low: this.nearest(text) === "sit", window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
+    return { passage: { text, frames, afresh: this.beginsStanding(text), low: this.nearest(text) === "sit", mirrored, window: once + REPEATED_OVERLAP, miss: this.miss(clause, frames) } };
   }
 
   /** Whether the heading of a clause is led: it names an angle, spins, or bends its way. */
@@ -377,9 +382,9 @@ export class Director {
   }
 
   /** What is done, and stays as it is then. */
-  async held(clause, frames, seed) {
+  async held(clause, frames, seed, mirrored) {
     const { text } = clause, first = Math.min(frames, round(HELD_SECONDS * FPS));
-    const alone = { text, frames: first, afresh: this.beginsStanding(text), miss: this.miss(clause, first) };
+    const alone = { text, frames: first, afresh: this.beginsStanding(text), mirrored, miss: this.miss(clause, first) };
     return held(await streamFeatures(this.sampler, [alone], seed), frames);
   }
 

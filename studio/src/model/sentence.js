@@ -19,14 +19,15 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, unheard: "" });
+const HOP = ["hop", "hops on one leg"]; // an action, and words for it
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, hand: "", unheard: "" });
 
 /** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
 export const lasting = ({ tempo }, seconds) => (seconds <= ONCE ? seconds / tempo : seconds);
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
-  && !clause.meanwhile && clause.side === "both" && !clause.held && !clause.seat && clause.tempo === 1;
+  && !clause.meanwhile && clause.side === "both" && !clause.held && !clause.seat && clause.tempo === 1 && !clause.hand;
 
 function strip(text, characters = EDGES) {
   let start = 0, stop = text.length;
@@ -72,7 +73,8 @@ export class SentenceReader {
     const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
     const known = (text) => {
       const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
-      const found = name ? PLAINLY[name][0] : read(this.bared(text));
+      const found = name ? PLAINLY[name][0] : read(this.bared(text)), handed = this.withHand(text);
+      if (handed) return read(handed.text);
       if (surely(found)) return found;
       const { rest } = this.withoutTempo(text); // how fast is no part of what is done
       const paced = rest && rest !== text ? known(rest) : found;
@@ -96,7 +98,7 @@ export class SentenceReader {
       while (pieces.length) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0], inRow) : null;
-        const clause = pair ?? this.parted(first) ?? this.measured(first);
+        const clause = pair ?? this.withHand(first) ?? this.parted(first) ?? this.measured(first);
         found.push(last ? this.asBefore(last, clause) : clause);
         last = null;
         pieces = pair ? others.slice(1) : others;
@@ -161,6 +163,16 @@ export class SentenceReader {
     if (found.size !== 1) return { rest: text, tempo: 1 };
     for (let said; (said = this.first.tempo.exec(text));) text = this.without(text, said);
     return { rest: text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""), tempo: [...found][0] };
+  }
+
+  /** A clause without the words that say with which hand or foot it is done, where it was learned of one of them alone ("salutes with the left hand", which is nearer to waves). */
+  withHand(text) {
+    const said = this.first.handed.exec(text);
+    if (!said) return null;
+    const whole = this.plainRead(text), hops = surely(whole) === HOP[0]; // without a foot it is a jump
+    const clause = hops ? { ...this.measured(text), text: HOP[1] } : this.measured(this.without(text, said));
+    const side = this.sideOf(said[0]), own = hops ? whole : this.plainRead(clause.text);
+    return side === "both" || !own.handed || !own.known ? null : { ...clause, hand: side };
   }
 
   /** A clause that has its tempo, where what is done is read without that word, and no other thing is than with it. */

@@ -2,7 +2,7 @@
 // (src/shared/pipelines/stream.py).
 
 import { bridge, goneDown, isApart, leaps } from "../body/bridge.js";
-import { cut, decodeFeatures, framesOf, joinArrays, ROOT, WIDTH } from "../body/features.js";
+import { cut, decodeFeatures, framesOf, joinArrays, mirrored, ROOT, WIDTH } from "../body/features.js";
 import { StreamingPostProcessor } from "../body/streaming.js";
 import { endsAtRest } from "../body/measurements.js";
 import { INDEX, pose } from "../body/skeleton.js";
@@ -116,9 +116,10 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     const key = `${frames} ${trial} ${kept}`;
     let piece = asked.get(key);
     if (!piece) {
-      const features = await sampler.sample(passage.text, framesOf(longer.values), trial, given, { guidance, gone: passage.gone });
+      const seen = passage.mirrored && given ? mirrorOf(given) : given;
+      const features = await sampler.sample(passage.text, framesOf(longer.values), trial, seen, { guidance, gone: passage.gone });
       if (!features) return null;
-      piece = cut(blendBoundaries(cut(features, 0, kept + frames), known.known), kept);
+      piece = cut(blendBoundaries(cut(passage.mirrored ? mirrored(features) : features, 0, kept + frames), known.known), kept);
       asked.set(key, piece);
     }
     if (alone || kept || !before.length || (bridges(passage) && isApart(before, piece))) return piece;
@@ -189,6 +190,8 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     }
   }
 }
+
+const mirrorOf = ({ values, known, shown }) => ({ values: mirrored(values), known: mirrored(known, true), shown: mirrored(shown, true) });
 
 /** Motion without end in settled pieces, while the text changes. */
 export class MotionStream {

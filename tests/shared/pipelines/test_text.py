@@ -4,6 +4,7 @@ PromptSampler keeps the best of N for each prompt.
 """
 
 import copy
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -711,3 +712,30 @@ def test_what_is_done_in_cycles_takes_the_time_of_so_many(
     [motion] = sentences.generate([prompt])
     assert 2.0 <= motion.seconds <= most
     assert sentences.scope_warnings([prompt]) == [None]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "action", "limbs"),
+    [("salutes with the left hand", "salute", "wrist"), ("用左手喝水", "drink", "wrist"),
+     ("hops on the left leg twice", "hop", "ankle"),
+     ("un salut militaire de la main gauche", "salute", "wrist")],
+)  # fmt: skip
+def test_what_was_learned_of_one_side_is_mirrored_for_the_other(
+    prompt: str, action: str, limbs: str, loaded: TextToMotion
+) -> None:
+    """Who salutes with the left hand waved."""
+    sentences = SentenceGenerator(loaded)
+    [clause] = sentences.clauses(prompt)
+    assert clause.hand == "left" and sentences._nearest(clause.text) == action
+    [left] = sentences.generate([prompt])
+    [right] = sentences.generate([re.sub("left|gauche|左", lambda s: OTHER[s[0]], prompt)])
+    assert right.num_frames == left.num_frames
+    names = [JOINT_INDEX[f"{side}_{limbs}"] for side in "lr"]
+    moved = [
+        np.abs(np.diff(each.positions()[:, names], axis=0)).sum((0, 2)) for each in (left, right)
+    ]
+    np.testing.assert_allclose(moved[0], moved[1][::-1], rtol=0.02)
+    assert not 0.8 < moved[0][0] / moved[0][1] < 1.25
+
+
+OTHER = {"left": "right", "gauche": "droite", "左": "右"}

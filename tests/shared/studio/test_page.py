@@ -122,7 +122,9 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
      "a person sleeps, then walks forward", "a man bows slowly", "does 3 quick squats",
      "a person sits down and waves", "walks slowly, then kneels down",
      "il saute au ralenti, puis il tape vite dans ses mains", "nods three times",
-     "does seven jumping jacks", "crawls, then lies down", "sits down, then sleeps"],
+     "does seven jumping jacks", "crawls, then lies down", "sits down, then sleeps",
+     "salutes with the left hand", "hops on the left leg three times",
+     "walks, then drinks with her left hand", "trinkt mit der linken Hand und winkt dann"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path

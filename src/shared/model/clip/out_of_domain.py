@@ -131,6 +131,7 @@ class OutOfDomainDetector:
         checked: actions that `metrics.measurements` tells, as captured clips bear out.
         cycles: actions done again and again in one go -> seconds of rest before and after, and
             from one to the next.
+        handed: actions learned of one side alone -> left or right.
         captions: `caption_key` of a training caption -> its action; older folders have none.
     """
 
@@ -153,6 +154,7 @@ class OutOfDomainDetector:
     still: tuple[str, ...] = ()
     checked: tuple[str, ...] = ()
     cycles: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    handed: Mapping[str, str] = field(default_factory=dict)
     captions: Mapping[int, int] = field(default_factory=dict)
 
     @classmethod

@@ -20,14 +20,14 @@ import math
 import zlib
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Self
 
 import numpy as np
 
 from ...config_loader import did_you_mean
 from ...errors import UsageError, UserError
-from ...motion.features import HEIGHT, ROOT_ROW, world_joints
+from ...motion.features import HEIGHT, ROOT_ROW, mirror_features, world_joints
 from ...motion.rotations import gaussian_smooth
 from ...tensors import Tensor, torch
 from ..noise import NoiseStream
@@ -136,6 +136,13 @@ class Constraint:
         beats = None if self.beats is None else self.beats - start / fps
         shown = None if self.shown is None else self.shown[start:stop]
         return Constraint(self.values[start:stop], self.known[start:stop], beats, shown)
+
+    def mirrored(self) -> "Constraint":
+        """Of the mirror image of the motion."""
+        known, shown = mirror_features(self.known.float()) != 0, self.shown
+        if shown is not None:
+            shown = mirror_features(shown.float()) != 0
+        return replace(self, values=mirror_features(self.values), known=known, shown=shown)
 
     def over(self, other: "Constraint") -> "Constraint":
         """Both, of T frames each; its own entries and beats where both give some."""

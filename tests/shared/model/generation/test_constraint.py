@@ -10,7 +10,8 @@ from src.shared.errors import UsageError
 from src.shared.model.diffusion import GaussianDiffusion
 from src.shared.model.generation.constraint import Constraint, KnownBatch
 from src.shared.model.generation.motion_generator import TextToMotion
-from src.shared.motion.features import FORWARD, ROOT_ROW
+from src.shared.motion.features import FORWARD, LEFT_CONTACT, ROOT_ROW, mirror_features
+from src.shared.motion.skeleton import JOINT_INDEX
 
 PROMPT = ["a person walks forward"]
 
@@ -116,3 +117,17 @@ def test_what_the_network_is_not_told_comes_out_all_the_same(make_generator):
         assert torch.equal(made[shown.known], shown.values[shown.known])
     assert not torch.allclose(*makes, atol=1e-4)
     assert hidden.window(3, 9).shown is not None and len(hidden.window(3, 9).shown) == 6
+
+
+def test_the_mirror_image_knows_the_other_side() -> None:
+    given = Constraint.free(4)
+    given.values.normal_()
+    given.known[:, JOINT_INDEX["l_wrist"]] = given.known[2, ROOT_ROW, LEFT_CONTACT] = True
+    given = replace(given, shown=given.known.clone())
+    there = given.mirrored()
+    assert torch.equal(there.values, mirror_features(given.values))
+    for mask in (there.known, there.shown):
+        assert mask is not None and mask[:, JOINT_INDEX["r_wrist"]].all()
+        assert mask[2, ROOT_ROW, LEFT_CONTACT + 1] and mask.sum() == given.known.sum()
+    back = there.mirrored()
+    assert torch.equal(back.values, given.values) and torch.equal(back.known, given.known)
