@@ -436,7 +436,11 @@ class ActionTask(Task):
         def done(known: Sequence[str], shown: Sequence[str]) -> tuple[str, ...]:
             return tuple(sorted({*known} - learned | {*shown} & learned))
 
+        cycles = {name: how for name, how in scope.cycles.items() if name not in learned}
+        handed = {name: how for name, how in scope.handed.items() if name not in learned}
+
         scope = replace(scope, still=done(scope.still, still_actions(data)))
+        scope = replace(scope, cycles=cycles, handed=handed)
         if self.config.actions:
             return scope
         taken = scope.key_words.keys()

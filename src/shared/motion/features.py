@@ -45,13 +45,18 @@ class Place:
 ORIGIN = Place()
 
 
+def has_heading(matrices: Tensor) -> Tensor:
+    """Whether each of these pelvis rotations [T,3,3] has one: not who is upside down."""
+    return matrices[:, 1, 1] > TURNED_OVER
+
+
 def headings(matrices: Tensor, spans: Sequence[slice] = (slice(None),)) -> Tensor:
     """Heading [T] in radians of pelvis rotations [T,3,3], without jumps of 2π within each span.
 
     Who is upside down has none that could be told (the twist about +Y goes half round there from
     one frame to the next): he turns evenly from the one before to the one after.
     """
-    angles, upright = heading_angle(matrices).numpy(), matrices[:, 1, 1].numpy() > TURNED_OVER
+    angles, upright = heading_angle(matrices).numpy(), has_heading(matrices).numpy()
     whole = [np.empty(0, angles.dtype)]
     for span in spans:
         own, frames = angles[span], np.flatnonzero(upright[span])

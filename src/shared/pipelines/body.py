@@ -25,7 +25,7 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place
+from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place, has_heading
 from ..motion.filters import smoothed
 from ..motion.motion import Danced, Motion
 from ..motion.postprocess.stitching import blend_cuts
@@ -202,7 +202,8 @@ def start_of(trajectory: MotionTrajectory) -> Place:
 
 @dataclass(frozen=True)
 class RootError:
-    """How far a body's pelvis is from its path: metres and degrees of heading."""
+    """How far a body's pelvis is from its path: metres and, while it is not upside down, degrees of
+    heading."""
 
     mean_metres: float
     max_metres: float
@@ -216,6 +217,8 @@ def root_error(motion: Motion, trajectory: MotionTrajectory) -> RootError:
     pelvis = torch.tensor(motion.quaternions[:, PELVIS], dtype=torch.float64)
     turned = heading_of(pelvis).numpy() - trajectory.heading
     degrees = np.rad2deg(np.abs((turned + np.pi) % (2 * np.pi) - np.pi))
+    degrees = degrees[has_heading(quaternion_to_matrix(pelvis)).numpy()]
+    degrees = degrees if len(degrees) else np.zeros(1)
     return RootError(
         *(float(value) for value in (apart.mean(), apart.max(), degrees.mean(), degrees.max()))
     )

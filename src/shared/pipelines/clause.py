@@ -32,7 +32,7 @@ ONCE = 5.0  # seconds in which most is done once, at most
 REPEATED, LAP = (2.5, 3.0), 4.75  # seconds of one repetition, from … to; of many in one window
 LONG_REST = 1.0  # seconds before and after a cycle: who rests for less goes on in the next window
 PACES = {"walk": (0.4, 1.3), "run": (0.8, 1.4)}  # times as fast as usual, at least and at most
-HOP = ("hop", "hops on one leg")  # an action, and words for it
+HOP = ("hop", "on one leg", "hops on one leg")  # an action, and words for it
 ABOUT = 180.0  # degrees, which need no side
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
@@ -222,21 +222,30 @@ def without_tempo(text: str) -> tuple[str, float]:
         return text, 1.0
     while said := words.tempo.search(text):
         text = without(text, said)  # no blank is left where writing has none
-    return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", text), found.pop()
+    return closed(text), found.pop()
 
 
 def with_hand(text: str, read: Read) -> Clause | None:
-    """A clause without the words that say with which hand or foot it is done, where one of them
-    alone was learned ("salutes with the left hand", which is nearer to waves)."""
-    if (said := all_words().handed.search(text)) is None:
+    """A clause without the words that say with which hand or foot it is done, where it was learned
+    of one of them alone ("salutes with the left hand", which is nearer to waves)."""
+    words = all_words()
+    if (said := words.handed.search(text)) is None or words.denies.search(text[: said.start()]):
         return None
-    clause, side = measured(without(text, said)), side_of(said[0])
-    if (whole := read(text)).surely == HOP[0]:  # without a foot it is a jump
-        clause = replace(measured(text), text=HOP[1])
-    own = whole if clause.text == HOP[1] else read(clause.text)
-    if side == "both" or not own.handed or not own.known:
+    clause, side = measured(closed(without(text, said))), side_of(said[0])
+    whole = read(text)
+    if whole.surely == HOP[0]:  # without a foot it is a jump
+        hops = measured(closed(without(text, said, HOP[1])))
+        clause = hops if read(hops.text).surely == HOP[0] else replace(clause, text=HOP[2])
+    own, legs = read(clause.text), words.footed.search(said[0]) is not None
+    sure = own.surely or (own.known and own.action == whole.action)
+    if side == "both" or not sure or not own.handed or legs != (own.action == HOP[0]):
         return None
     return replace(clause, hand=side)
+
+
+def closed(text: str) -> str:
+    """A text without blanks between signs of a writing that has none, and before stops."""
+    return re.sub(rf"(?<={CJK_SIGN})\s+(?={CJK_SIGN})|\s+(?=[,;.])", "", text)
 
 
 def in_tempo(clause: Clause, read: Read) -> Clause:

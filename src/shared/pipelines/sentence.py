@@ -35,7 +35,6 @@ from .words import (
     STANDS,
     all_words,
     bare,
-    begins_after,
     names_both,
     place_kept,
     plain_text,
@@ -84,20 +83,21 @@ def clauses(
     def known(text: str) -> Reading:
         own = (own for name, (own, _) in PLAINLY.items() if _says(name, text, read))
         found = next(own, None) or read(_bared(text, read))
-        if clause := with_hand(text, read):
-            return read(clause.text)
         if found.surely is None and (rest := without_tempo(text)[0]) not in ("", text):
             paced = known(rest)  # how fast is no part of what is done
             return paced if paced.surely else found
         return found
 
-    for whole in _ordered(_staying(plain_text(tidied(sentence)), known), known):
-        (pieces, unheard), last = _joined(whole, known, strange), found[-1] if found else None
+    def heard(text: str) -> Reading:
+        return read(clause.text) if (clause := with_hand(text, known)) else known(text)
+
+    for whole in _ordered(_staying(plain_text(tidied(sentence)), known), heard):
+        (pieces, unheard), last = _joined(whole, heard, strange), found[-1] if found else None
         in_row = len(re.findall("[てで]、", whole)) > 1
         while pieces:
             first, *others = pieces
             pair = _at_once(first, others[0], known, in_row=in_row) if others else None
-            clause = pair or with_hand(first, read) or _parted(first, known) or measured(first)
+            clause = pair or _handed(first, known) or measured(first)
             found.append(_as_before(last, clause) if last else clause)
             last, pieces = None, others[1:] if pair else others
         found[-1] = replace(found[-1], unheard=unheard or found[-1].unheard)
@@ -120,6 +120,15 @@ def clauses(
             down = RISEN if known(before.text).action in LOW else LAID
             found[at - 1] = replace(before, seconds=down)  # there is more to come
     return found
+
+
+def _handed(text: str, read: Read) -> Clause | None:
+    """A clause that names a hand which alone does it, or one of two things at once; a hand by
+    itself is no other thing."""
+    parted, own = _parted(text, read), with_hand(text, read)
+    if parted and own and all_words().handed.sub("", parted.meanwhile).strip(EDGES):
+        return parted
+    return own or parted
 
 
 def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
@@ -253,7 +262,7 @@ def _ordered(text: str, read: Read) -> list[str]:
     ):  # fmt: skip
         for match in () if found else pattern.finditer(text):
             left, right = text[: match.start()], text[match.end() :]
-            if pattern is words.then and begins_after(text, match):
+            if pattern is words.then and _begins_after(text, match):
                 continue  # "después" alone, not "después de haber saltado"
             bound = pattern in (words.before, words.after)
             stop = words.ended.search(left) if bound else None
@@ -370,6 +379,18 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     ):
         return list(best.parts), HELD_MARK.sub("", ", ".join(each[at] for at in best.passed))
     return [text], ""
+
+
+def _begins_after(text: str, then: re.Match[str]) -> bool:
+    """Whether a word of order is the first one of a longer phrase that says the opposite."""
+    word = then[0].lstrip(EDGES)
+    after = all_words().after.match(text, then.end() - len(word))
+    units = all_words().units
+    if after is None or any(
+        units[name].match(text, after.end()) for name in ("seconds", "minutes")
+    ):
+        return False
+    return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
 
 def _is_aside(piece: str, *, first: bool) -> bool:

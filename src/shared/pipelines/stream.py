@@ -73,7 +73,7 @@ class Passage:
 
     def under(self, seat: str) -> "Passage":
         """What the body does of it that goes on to sit, if it does."""
-        return replace(self, text=seat, window=None, miss=None) if seat else self
+        return replace(self, text=seat, window=None, miss=None, mirrored=False) if seat else self
 
 
 def stream_features(
@@ -86,6 +86,7 @@ def stream_features(
     overlap: int = OVERLAP,
     ahead: int = 0,
     bridged: bool = False,
+    told: Callable[[int], None] | None = None,
 ) -> Iterator[Tensor]:
     """Raw features [t, R, 6] in pieces that follow each other and never change again.
 
@@ -105,6 +106,7 @@ def stream_features(
         bridged: where a text begins in another posture than the one before ended in, the way there
             is shown first: a piece beyond the passage's frames, which a constraint does not count,
             or a part of them where its time is told.
+        told: hears of the frames of a way before it comes.
 
     Raises:
         UsageError: the overlap does not fit the window, or a constraint is not as long as asked.
@@ -114,7 +116,7 @@ def stream_features(
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
     before = spare = torch.zeros(0, generator.network.motion_rows, 6)
     shows: tuple[str, str | None] | None = None  # the spare frames
-    made, number, said, fps = 0, 0, "", generator.card.fps
+    made, number, said, fps = 0, 0, ("", False), generator.card.fps
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
         asked_for = padded(known, 0, SHORTEST - len(known))
@@ -174,7 +176,11 @@ def stream_features(
     bridged = bridged and generator.network.motion_rows > ROOT_ROW
     for passage in passages:
         own = before[:0]  # what there is of the passage
-        if shows == (passage.text, passage.tag) and len(spare) >= passage.frames:
+        if (
+            shows == (passage.text, passage.tag)
+            and not passage.mirrored
+            and len(spare) >= passage.frames
+        ):
             piece, spare = spare[: passage.frames], spare[passage.frames :]
             before = torch.cat((before, piece))[-overlap:]
             made += len(piece)
@@ -182,9 +188,9 @@ def stream_features(
             continue
         lucky: list[int] = []  # the seed of the repetition before
         widest = min(window, passage.window or window)
-        new, said = passage.text != said, passage.text
+        new, said = (passage.text, passage.mirrored) != said, (passage.text, passage.mirrored)
         asked.clear()
-        apart = new and stands(before, fps) and generator.begins_standing(said)
+        apart = new and stands(before, fps) and generator.begins_standing(passage.text)
         beyond = ahead if constraint is None and passage.miss is None else 0
         if bridges(passage) and new and len(before) and not apart:
             length, *_ = window_lengths(passage.frames, len(before), widest, overlap)
@@ -207,6 +213,8 @@ def stream_features(
                     piece, length, made = piece[cut:], length - cut, made + cut
                     way = bridge(before, piece, fps, cut)
                 before = torch.cat((before, way))
+                if told is not None:
+                    told(len(way))
                 yield way
             piece, spare, shows = piece[:length], piece[length:], (passage.text, passage.tag)
             before = torch.cat((before, piece))[-overlap:]
@@ -227,12 +235,16 @@ def spanned_features(
 ) -> tuple[Tensor, list[tuple[int, int]]]:
     """Raw features [T, R, 6] of passages with the ways between them, and from where to where each
     passage goes; see `stream_features`."""
-    pieces, begun = list[Tensor](), list[int]()
+    pieces, begun, ways = list[Tensor](), list[int](), list[int]()
 
     def asked() -> Iterator[Passage]:
         for passage in passages:
             begun.append(sum(map(len, pieces)))
+            ways.append(0)
             yield passage
+
+    def gone(frames: int) -> None:
+        ways[-1] = frames
 
     for piece in stream_features(
         generator,
@@ -242,11 +254,15 @@ def spanned_features(
         window=window,
         overlap=overlap,
         bridged=True,
+        told=gone,
     ):
         pieces.append(piece)  # as it comes: `asked` counts them
     features = torch.cat(pieces)
     stops = [*begun[1:], len(features)]
-    return features, [(s - p.frames, s) for p, s in zip(passages, stops, strict=True)]
+    own = [
+        0 if passage.timed is not None else way for passage, way in zip(passages, ways, strict=True)
+    ]
+    return features, [*zip(map(sum, zip(begun, own, strict=True)), stops, strict=True)]
 
 
 def is_apart(before: Tensor, piece: Tensor) -> bool:

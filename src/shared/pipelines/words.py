@@ -264,9 +264,22 @@ class Words:
         held = rf"{further}(?:{_any(all_of('held'))}|{goes_on}){ends}"
         self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
         self.arms, self.about = (re.compile(_any(all_of(w)), re.I) for w in ("limbs", "about"))
-        tool, side = _any([*all_of("limbs"), *all_of("legs")]), _any(all_of("sided"))
-        tool = rf"{_any(all_of('wields'))}\s+(?:{whose}\s+)?(?:{side}\s+{tool}|{tool}\s+{side})"
-        self.handed = Rare(rf"{tool}|{_any(all_of('handed'))}", all_of("sided") + all_of("handed"))
+        side, wields = _any(all_of("sided")), _any(all_of("wields"))
+        tools = [_any([*all_of(limbs)]) for limbs in ("limbs", "legs")]
+        tools = [
+            rf"{wields}\s+(?:{whose}\s+)?(?:{side}\s+{tool}|{tool}\s+{side})" for tool in tools
+        ]
+        near = rf"(?!\s+{wields}\s+{whose})"  # "with his left hand on his hip"
+        self.footed = Rare(
+            f"(?:{tools[1]}|{_any(all_of('footed'))})", all_of("sided") + all_of("footed")
+        )
+        handed = rf"(?:{tools[0]}|{_any(all_of('handed'))}){near}|{self.footed.pattern}"
+        self.handed = Rare(
+            handed, [w for key in ("sided", "handed", "footed") for w in all_of(key)]
+        )
+        self.denies = re.compile(
+            _any([w for key in ("lacking", "denied", "refuses") for w in all_of(key)]), re.I
+        )
         refused = rf"{_any(all_of('refuses'))}.{{0,120}}?(?:{_STOPS}|{_any(all_of('but'))})"
         self.refusal = re.compile(refused, re.I)
         who = rf"[,;]|(?=\s+{_any(all_of('who'))}\s)"  # as far as a stop, or whoever does it
@@ -569,18 +582,6 @@ def names_both(text: str) -> bool:
     words = all_words()
     said = words.no_side.sub(" ", text)
     return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
-
-
-def begins_after(text: str, then: re.Match[str]) -> bool:
-    """Whether a word of order is the first one of a longer phrase that says the opposite."""
-    word = then[0].lstrip(EDGES)
-    after = all_words().after.match(text, then.end() - len(word))
-    units = all_words().units
-    if after is None or any(
-        units[name].match(text, after.end()) for name in ("seconds", "minutes")
-    ):
-        return False
-    return len(after[0].rstrip()) > len(word.rstrip(EDGES))
 
 
 def goes_round(text: str) -> bool:

@@ -110,23 +110,21 @@ export function decodeFeatures(features, place = ORIGIN, text = "", fps = FPS) {
   return { frames, quaternions, root: Float32Array.from(path), contacts, fps, text };
 }
 
-/** Unwrapped heading [T] of a motion's pelvis; who is upside down has none, and turns evenly from the one before to the one after. */
-export function headingsOf(motion) {
-  const angles = new Float64Array(motion.frames), upright = [];
-  for (let t = 0; t < motion.frames; t++) {
-    const pelvis = matrixOf(motion.quaternions, t * JOINTS * 4);
-    angles[t] = headingAngle(pelvis);
-    if (pelvis[4] > TURNED_OVER) upright.push(t);
-  }
-  if (!upright.length || upright.length === motion.frames) return unwrap(angles);
+/** Unwrapped heading [T] of pelvis rotations, matrices; who is upside down has none, and turns evenly from the one before to the one after. */
+export function headings(matrices) {
+  const angles = Float64Array.from(matrices, headingAngle), upright = [];
+  matrices.forEach((pelvis, t) => { if (pelvis[4] > TURNED_OVER) upright.push(t); });
+  if (!upright.length || upright.length === angles.length) return unwrap(angles);
   const kept = unwrap(Float64Array.from(upright, (t) => angles[t]));
-  for (let t = 0, next = 0; t < motion.frames; t++) {
+  for (let t = 0, next = 0; t < angles.length; t++) {
     while (next < upright.length && upright[next] < t) next++;
     const [before, after] = [Math.max(next - 1, 0), Math.min(next, upright.length - 1)], apart = upright[after] - upright[before];
     angles[t] = kept[before] + (kept[after] - kept[before]) * (apart ? clamp((t - upright[before]) / apart, 0, 1) : 0);
   }
   return angles;
 }
+
+export const headingsOf = (motion) => headings(Array.from({ length: motion.frames }, (_, t) => matrixOf(motion.quaternions, t * JOINTS * 4)));
 
 export function placeOf(motion, t) {
   return { x: motion.root[t * 3], z: motion.root[t * 3 + 2], heading: headingsOf(motion)[t] };

@@ -2,11 +2,11 @@
 // stitching.py in src/shared/motion/postprocess, which say why.
 
 import {
-  add, conjugate, continuous, expOf, logOf, matrixOf, matrixOf6d, multiply, product, quaternionOf, headingAngle,
-  norm, scale, slerp, sub, transposed, unit, turnAboutY, unwrap, write6d, yawMatrix, yawQuaternion,
+  add, conjugate, continuous, expOf, logOf, matrixOf, matrixOf6d, multiply, product, quaternionOf,
+  norm, scale, slerp, sub, transposed, unit, turnAboutY, write6d, yawMatrix, yawQuaternion,
 } from "./rotations.js";
 import {
-  decodeFeatures, framesOf, joinArrays, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
+  decodeFeatures, framesOf, headings, joinArrays, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
 } from "./features.js";
 import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet, twoBones } from "./footskate.js";
 import { ARMS, FPS, INDEX, JOINTS, pose, SKELETON } from "./skeleton.js";
@@ -29,10 +29,8 @@ const where = (known, yes, no) => no.map((value, i) => (known[i] ? yes[i] : valu
 
 /** Features whose pelvis row has no heading left. */
 function withoutHeading(features) {
-  const frames = framesOf(features), level = features.slice(), angles = new Float64Array(frames), pelvis = [];
-  for (let t = 0; t < frames; t++) { pelvis.push(matrixOf6d(features, t * WIDTH)); angles[t] = headingAngle(pelvis[t]); }
-  unwrap(angles);
-  for (let t = 0; t < frames; t++) write6d(multiply(yawMatrix(-angles[t]), pelvis[t]), level, t * WIDTH);
+  const level = features.slice(), pelvis = Array.from({ length: framesOf(features) }, (_, t) => matrixOf6d(features, t * WIDTH));
+  headings(pelvis).forEach((angle, t) => write6d(multiply(yawMatrix(-angle), pelvis[t]), level, t * WIDTH));
   return level;
 }
 

@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isPlain, lasting, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, isFar, isPlain, lasting, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -51,9 +51,10 @@ export class Director {
     const sure = (text) => angled.has(text) && ROUND.includes(surely(this.reading(text)));
     const told = texts.map((text, i) => this.unlearned(text) ?? (sure(text) ? null : lines[i])).filter(Boolean);
     for (const { unheard } of parts) if (unheard) told.push(this.unlearned(unheard) ?? `Nothing is made of “${unheard}”.`);
-    for (const { text, count } of parts) {
-      const own = seconds / parts.length;
-      if (own < count * LEAST && count > 1 && !ROUND.includes(this.nearest(text))) told.push(`“${text}”: ${count} times in ${own.toFixed(1)} seconds is not seen; give it ${count * LEAST} or more.`);
+    for (const part of parts) {
+      const { text, count } = part, own = seconds / parts.length;
+      const led = isFar(part) || ROUND.includes(this.nearest(text)); // counts nothing
+      if (count > 1 && !led && own * this.pace(part) < count * LEAST) told.push(`“${text}”: ${count} times in ${own.toFixed(1)} seconds is not seen; give it ${count * LEAST} or more.`);
     }
     return [...new Set(told)].join(" ") || null;
   }
@@ -188,7 +189,7 @@ export class Director {
     }
     const down = await this.ledDown(given, parts, starts, seed);
     if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
-    const under = passages.map((passage, i) => (parts[i].seat ? { ...passage, text: parts[i].seat, afresh: this.beginsStanding(parts[i].seat), window: undefined, miss: undefined } : passage));
+    const under = passages.map((passage, i) => (parts[i].seat ? { ...passage, text: parts[i].seat, afresh: this.beginsStanding(parts[i].seat), window: undefined, miss: undefined, mirrored: false } : passage));
     let { features, spans } = await spannedFeatures(this.sampler, under, seed, {
       ...options,
       constraint: led || down ? given : null,

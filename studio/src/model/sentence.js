@@ -19,7 +19,8 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
-const HOP = ["hop", "hops on one leg"]; // an action, and words for it
+const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
+const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
 export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, hand: "", unheard: "" });
 
 /** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
@@ -53,7 +54,7 @@ const differ = (first, second, sure = SURE) =>
   Math.min(first.certainty, second.certainty) > sure && first.action !== second.action;
 
 /** Whether it says how far to go or to turn. */
-const isFar = ({ metres, steps, degrees }) => metres !== null || steps !== null || degrees !== null;
+export const isFar = ({ metres, steps, degrees }) => metres !== null || steps !== null || degrees !== null;
 
 const opposite = (one, other) => one !== other && one !== "both" && other !== "both";
 
@@ -73,8 +74,7 @@ export class SentenceReader {
     const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
     const known = (text) => {
       const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
-      const found = name ? PLAINLY[name][0] : read(this.bared(text)), handed = this.withHand(text);
-      if (handed) return read(handed.text);
+      const found = name ? PLAINLY[name][0] : read(this.bared(text));
       if (surely(found)) return found;
       const { rest } = this.withoutTempo(text); // how fast is no part of what is done
       const paced = rest && rest !== text ? known(rest) : found;
@@ -98,7 +98,7 @@ export class SentenceReader {
       while (pieces.length) {
         const [first, ...others] = pieces;
         const pair = others.length ? this.atOnce(first, others[0], inRow) : null;
-        const clause = pair ?? this.withHand(first) ?? this.parted(first) ?? this.measured(first);
+        const clause = pair ?? this.handed(first) ?? this.measured(first);
         found.push(last ? this.asBefore(last, clause) : clause);
         last = null;
         pieces = pair ? others.slice(1) : others;
@@ -162,17 +162,27 @@ export class SentenceReader {
     const found = new Set([...text.matchAll(this.each.tempo)].map(([said]) => this.tempos[bare(plain(said))]));
     if (found.size !== 1) return { rest: text, tempo: 1 };
     for (let said; (said = this.first.tempo.exec(text));) text = this.without(text, said);
-    return { rest: text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""), tempo: [...found][0] };
+    return { rest: closed(text), tempo: [...found][0] };
+  }
+
+  /** A clause that names a hand which alone does it, or one of two things at once; a hand by itself is no other thing. */
+  handed(text) {
+    const parted = this.parted(text), own = this.withHand(text);
+    return parted && own && strip(parted.meanwhile.replace(this.each.handed, "")) ? parted : own ?? parted;
   }
 
   /** A clause without the words that say with which hand or foot it is done, where it was learned of one of them alone ("salutes with the left hand", which is nearer to waves). */
   withHand(text) {
     const said = this.first.handed.exec(text);
-    if (!said) return null;
-    const whole = this.plainRead(text), hops = surely(whole) === HOP[0]; // without a foot it is a jump
-    const clause = hops ? { ...this.measured(text), text: HOP[1] } : this.measured(this.without(text, said));
-    const side = this.sideOf(said[0]), own = hops ? whole : this.plainRead(clause.text);
-    return side === "both" || !own.handed || !own.known ? null : { ...clause, hand: side };
+    if (!said || this.first.denies.test(text.slice(0, said.index))) return null;
+    const whole = this.read(text), side = this.sideOf(said[0]), [hop, foot, hops] = HOP;
+    let clause = this.measured(closed(this.without(text, said)));
+    if (surely(whole) === hop) { // without a foot it is a jump
+      const other = this.measured(closed(this.without(text, said, foot)));
+      clause = surely(this.read(other.text)) === hop ? other : { ...clause, text: hops };
+    }
+    const own = this.read(clause.text), sure = surely(own) || (own.known && own.action === whole.action);
+    return side === "both" || !sure || !own.handed || this.first.footed.test(said[0]) !== (own.action === hop) ? null : { ...clause, hand: side };
   }
 
   /** A clause that has its tempo, where what is done is read without that word, and no other thing is than with it. */
@@ -341,7 +351,7 @@ export class SentenceReader {
   /** Whether "before" or "after" says when; a noun behind it may be a place or a thing. */
   isTime(text, start, right, sure = false) {
     if (!this.head.noun.test(text.slice(start))) return true;
-    const { action, certainty, known = true } = this.reading(this.trimmed(right.split(this.first.stop)[0]));
+    const { action, certainty, known = true } = this.hearing(this.trimmed(right.split(this.first.stop)[0]));
     return action === null || (certainty > SURE && (known || !sure));
   }
 
@@ -361,7 +371,7 @@ export class SentenceReader {
     const last = spans(left, this.each.joint).at(-1), own = last ? left.slice(last[1]) : "";
     if (!strip(own)) return [left, right];
     if (strip(right) && !this.head.verb_then.test(then)) { // "und läuft dann langsam rückwärts" is one
-      const two = differ(this.read(this.trimmed(own)), this.read(this.trimmed(right)));
+      const two = differ(this.heard(this.trimmed(own)), this.heard(this.trimmed(right)));
       if (two || own.trim().split(/\s+/u).length > 3 || CJK.test(own)) return [left, right];
     }
     return [left.slice(0, last[0]), `${own.trimEnd()} ${right.trimStart()}`];
@@ -370,9 +380,9 @@ export class SentenceReader {
   joined(text) {
     const denial = this.head.denial.exec(text) ?? this.first.refusal.exec(text);
     const who = denial && this.trimmed(text.slice(0, denial.index)); // "she" of "she doesn't walk, she jumps"
-    if (denial && !(who && this.read(who).certainty > SURE)) {
+    if (denial && !(who && this.heard(who).certainty > SURE)) {
       const rest = this.trimmed(text.slice(denial.index + denial[0].length));
-      const instead = this.reading(rest), denied = surely(this.read(this.trimmed(denial[0])));
+      const instead = this.hearing(rest), denied = surely(this.heard(this.trimmed(denial[0])));
       if (instead.certainty > SURE || (rest && denied && denied !== instead.action)) text = rest; // not in "don't move, please"
     }
     const borders = [[0, 0], ...spans(text, this.each.joint), [text.length, text.length]];
@@ -382,7 +392,7 @@ export class SentenceReader {
     const each = pieces.map((piece) => this.trimmed(text.slice(...piece)));
     const asides = pieces.map((piece, place) => this.isAside(text.slice(...piece), !place));
     const more = (piece) => this.first.meanwhile.test(piece) || MARK.test(piece);
-    const odd = each.map((piece, i) => pieces.length > 1 && !asides[i] && !more(piece) && !surely(this.reading(piece)) && this.strange(piece));
+    const odd = each.map((piece, i) => pieces.length > 1 && !asides[i] && !more(piece) && !surely(this.hearing(piece)) && this.strange(piece));
     // The best ways up to a piece, one for what their last part is.
     const ways = [new Map([["", { parts: [], passed: [], certainty: 0, action: null, side: "both", far: false }]])];
     for (let stop = 1; stop <= pieces.length; stop++) {
@@ -392,7 +402,7 @@ export class SentenceReader {
         if (odd.slice(start, stop).some(Boolean)) continue;
         const part = this.trimmed(text.slice(pieces[start][0], pieces[stop - 1][1]));
         const clause = this.measured(part), far = isFar(clause);
-        const { action, certainty } = this.reading(part), side = this.sideOf(part);
+        const { action, certainty } = this.hearing(part), side = this.sideOf(part);
         const led = (far && GOING.includes(action)) || (clause.seconds !== null && action === "stand"); // its measure says that it is to be done
         const last = `${action} ${side} ${far}`;
         const before = [...ways[start].values()].filter((way) => way.action !== action || (certainty > SURE && (opposite(way.side, side) || (far && way.far))));
@@ -404,7 +414,7 @@ export class SentenceReader {
       ways.push(here);
     }
     const { parts, passed } = best([...ways.at(-1).values()]);
-    const partly = odd.some(Boolean) && parts.some((part) => this.reading(part).known ?? true);
+    const partly = odd.some(Boolean) && parts.some((part) => this.hearing(part).known ?? true);
     return parts.length > 1 || partly ? { parts, unheard: unmarked(passed.map((i) => each[i]).join(", ")) } : { parts: [text], unheard: "" };
   }
 
@@ -503,6 +513,15 @@ export class SentenceReader {
   /** What a part asks for, without its measures. */
   reading(part) {
     return this.read(this.measured(part).text);
+  }
+
+  /** What a text asks for beside the hand that it names. */
+  heard(text) {
+    return this.read(this.withHand(text)?.text ?? text);
+  }
+
+  hearing(part) {
+    return this.heard(this.measured(part).text);
   }
 
   sideOf(text) {

@@ -71,28 +71,30 @@ export async function streamFeatures(...all) {
 
 /** The same with the ways between them, and from where to where each passage goes. */
 export async function spannedFeatures(sampler, passages, seed, options) {
-  const pieces = [], begun = [], sum = () => pieces.reduce((total, piece) => total + framesOf(piece), 0);
+  const pieces = [], begun = [], ways = [], sum = () => pieces.reduce((total, piece) => total + framesOf(piece), 0);
   function* asked() {
     for (const passage of passages) {
       begun.push(sum());
+      ways.push(0);
       yield passage;
     }
   }
-  for await (const piece of featurePieces(sampler, asked(), seed, { ...options, bridged: true })) pieces.push(piece);
+  const passing = (frames) => { ways[ways.length - 1] = frames; };
+  for await (const piece of featurePieces(sampler, asked(), seed, { ...options, bridged: true, passing })) pieces.push(piece);
   const stops = [...begun.slice(1), sum()];
-  return { features: joinArrays(pieces), spans: passages.map(({ frames }, i) => [stops[i] - frames, stops[i]]) };
+  return { features: joinArrays(pieces), spans: passages.map(({ timed }, i) => [begun[i] + (timed === undefined ? ways[i] : 0), stops[i]]) };
 }
 
 /**
- * Raw features of passages { text, frames, window?, miss?, afresh?, timed?, low? } in pieces that never change again.
+ * Raw features of passages { text, frames, window?, miss?, afresh?, timed?, low?, mirrored? } in pieces that never change again.
  * @param {Sampler} sampler
  * @param {Iterable<object>} passages taken one by one, each when the motion before it is made; one of one window that is `gone()` meanwhile was none
  * @param {bigint|number} seed
- * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, bridged?: boolean, guidance?: number, told?: function}} options
- *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops, all that a window holds of a text that goes on; bridged: the way to another posture is shown first, beyond a passage's frames if it is not timed; told: called with the frames that are done
+ * @param {{constraint?: object, window?: number, overlap?: number, ahead?: number, bridged?: boolean, guidance?: number, told?: function, passing?: function}} options
+ *     constraint: of all frames; ahead: frames made beyond a passage, which one with another text drops, all that a window holds of a text that goes on; bridged: the way to another posture is shown first, beyond a passage's frames if it is not timed; told: called with the frames that are done; passing: with those of a way before it comes
  */
 async function* featurePieces(sampler, passages, seed, options = {}) {
-  const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, bridged = false, guidance, told } = options;
+  const { constraint = null, window = WINDOW, overlap = OVERLAP, ahead = 0, bridged = false, guidance, told, passing } = options;
   let before = new Float32Array(), spare = before, made = 0, number = 0, said = null;
   const goOn = (piece) => {
     before = cut(joinArrays([before, piece]), -overlap);
@@ -134,14 +136,15 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     return joined && leaps(before, joined) && (isApart(before, piece) || !leaps(cut(piece, 0, 1), piece));
   };
   next: for (const passage of passages) {
-    if (passage.text === said && framesOf(spare) >= passage.frames) {
+    const shows = `${passage.mirrored ? "mirrored " : ""}${passage.text}`;
+    if (shows === said && !passage.mirrored && framesOf(spare) >= passage.frames) {
       const piece = cut(spare, 0, passage.frames);
       spare = cut(spare, passage.frames);
       yield goOn(piece);
       continue;
     }
     asked.clear();
-    const earlier = said, fresh = passage.text !== said, widest = Math.min(window, passage.window ?? window);
+    const earlier = said, fresh = shows !== said, widest = Math.min(window, passage.window ?? window);
     let own = new Float32Array(), lucky = []; // the seed of the repetition before
     let apart = passage.afresh && fresh && stands(before);
     let beyond = constraint || passage.miss ? 0 : ahead;
@@ -152,7 +155,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
     }
     let shared = apart ? new Float32Array() : before;
     if (beyond && !fresh) beyond = Math.max(beyond, window - framesOf(shared) - passage.frames);
-    said = passage.text;
+    said = shows;
     for (let length of windowLengths(passage.frames, framesOf(shared), widest, overlap)) {
       let best = null, least = Infinity, chosen = null;
       for (const trial of [...lucky, ...seeds()]) {
@@ -177,6 +180,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
           way = bridge(before, best, first);
         }
         before = joinArrays([before, way]);
+        passing?.(framesOf(way));
         yield way;
       }
       spare = cut(best, length);

@@ -17,6 +17,7 @@ import { Timeline } from "./timeline.js";
 
 const $ = (id) => document.getElementById(id);
 const REMEMBERED = 24; // motions
+const TOLD_EACH = 60; // milliseconds, while it plays, between what clock and slider say
 const WALK = 1.1; // m/s
 const TURN = 0.1; // radians a key press
 const CHANGED = "Changed: Enter or Make makes it.";
@@ -38,6 +39,7 @@ class Page {
     this.clipBefore = null;
     this.selected = 0;
     this.time = 0;
+    this.toldAt = -Infinity;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
     const scripts = ["script", "helper"].map((id) => $(id).textContent), parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
     const opened = Client.open(scripts, this.settings, parts, texts); // its workers begin beside all that follows
@@ -80,7 +82,7 @@ class Page {
     const frame = (now) => {
       const step = (now - last) / 1000;
       last = now;
-      if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5));
+      if (this.shown && this.playing) this.seek((this.time + Math.min(step, 0.25)) % (this.seconds + 0.5), false);
       this.live?.tick();
       this.stage.draw($("follow").checked && !this.drawing, step, this.making && !this.live);
       requestAnimationFrame(frame);
@@ -390,9 +392,13 @@ class Page {
     $("play").textContent = this.playing ? "Pause" : "Play";
   }
 
-  seek(time) {
+  /** Show a moment; the clock and the slider follow at once, or while it plays often enough to be read: each time they are drawn costs as much as a body. */
+  seek(time, atOnce = true) {
     this.time = time;
     this.stage?.placeAt(time);
+    const stamp = performance.now();
+    if (!atOnce && stamp - this.toldAt < TOLD_EACH) return;
+    this.toldAt = stamp;
     const { seconds } = this, now = Math.min(time, seconds);
     $("scrub").value = now;
     $("scrub").setAttribute("aria-valuetext", `${now.toFixed(1)} seconds`);

@@ -36,6 +36,9 @@ def reading(text: str) -> Reading:
         ("right hand", Reading("wave", 1.0)),
         ("waves", Reading("wave", 3.0)),
         ("salute", Reading("salute", 3.0, handed="right")),
+        ("forward on one", Reading("hop", 2.0, handed="right")),
+        ("in a circle on one", Reading("jump", 2.0)),
+        ("one leg", Reading("hop", 2.0, handed="right")),
         ("foot", Reading("hop", 2.0, handed="right")),
     ):
         if word in text:
@@ -48,7 +51,10 @@ def reading(text: str) -> Reading:
     [("salutes with the left hand", "salutes", "left"),
      ("with his right hand he salutes", "he salutes", "right"),
      ("salute de la main gauche", "salute", "left"),
-     ("hops on her left foot", "hops on one leg", "left")],
+     ("hops on her left foot", "hops on one leg", "left"),
+     ("hops forward on her left foot", "hops forward on one leg", "left"),
+     ("hops in a circle on the left foot", "hops on one leg", "left"),
+     ("左手で敬礼 salute", "敬礼 salute", "left")],
 )  # fmt: skip
 def test_the_hand_is_taken_out_where_one_was_learned(text: str, rest: str, hand: str) -> None:
     clause = with_hand(text, reading)
@@ -56,7 +62,10 @@ def test_the_hand_is_taken_out_where_one_was_learned(text: str, rest: str, hand:
 
 
 @pytest.mark.parametrize(
-    "text", ["waves with the left hand", "salutes", "salutes with both hands", "turns to the left"]
-)
+    "text",
+    ["waves with the left hand", "salutes", "salutes with both hands", "turns to the left",
+     "salutes, but not with the left hand", "salutes with the left leg",
+     "with his left hand on his hip he salutes"],
+)  # fmt: skip
 def test_it_stays_where_both_were_learned_or_none_is_named(text: str) -> None:
     assert with_hand(text, reading) is None

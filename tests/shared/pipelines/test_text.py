@@ -25,7 +25,7 @@ from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
 from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import PromptSampler, TextJudge
-from src.shared.pipelines.stream import Passage
+from src.shared.pipelines.stream import Passage, spanned_features
 from src.shared.pipelines.text import INSISTING, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline
 from src.shared.pipelines.words import STANDS
@@ -739,3 +739,20 @@ def test_what_was_learned_of_one_side_is_mirrored_for_the_other(
 
 
 OTHER = {"left": "right", "gauche": "droite", "左": "右"}
+
+
+def test_what_goes_on_lower_is_shown_once(loaded: TextToMotion) -> None:
+    """Who crawls and then dies crawled the last half second twice."""
+    passages = [Passage("crawls", 120), Passage("dies", 120)]
+    features, spans = spanned_features(loaded, passages, Sampling(seed=0))
+    (start, stop), (begin, end) = spans
+    assert start == 0 and stop <= begin < end == len(features)
+    assert end - begin < 120  # it begins where it is down
+    motion = SentenceGenerator(loaded).generate(["crawls, then dies"])[0]
+    assert motion.num_frames == len(features)
+
+
+def test_who_sits_keeps_his_legs(loaded: TextToMotion) -> None:
+    [motion] = SentenceGenerator(loaded).generate(["sits and drinks with the left hand"])
+    knees = motion.positions()[20:, [JOINT_INDEX["l_knee"], JOINT_INDEX["r_knee"]], 1]
+    assert np.ptp(knees, axis=0).max() < 0.12
