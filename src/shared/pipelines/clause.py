@@ -79,7 +79,8 @@ class Clause:
         seat: what the body goes on to do meanwhile, who sits or kneels.
         held: whether it stays as it is when it is done, to the end.
         tempo: how many times as fast as usual.
-        hand: left or right, where it says with which of what is learned of one of them alone.
+        mirrored: whether it, or what the arms do meanwhile, names the hand of which it was not
+            learned.
         unheard: of the last of some clauses, the words beside them of which nothing is made.
     """
 
@@ -94,7 +95,7 @@ class Clause:
     seat: str = ""
     held: bool = False
     tempo: float = 1.0
-    hand: str = ""
+    mirrored: bool = False
     unheard: str = ""
 
     def lasting(self, seconds: float) -> float:
@@ -240,7 +241,7 @@ def with_hand(text: str, read: Read) -> Clause | None:
     sure = own.surely or (own.known and own.action == whole.action)
     if side == "both" or not sure or not own.handed or legs != (own.action == HOP[0]):
         return None
-    return replace(clause, hand=side)
+    return replace(clause, mirrored=side != own.handed)
 
 
 def closed(text: str) -> str:

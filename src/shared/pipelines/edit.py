@@ -32,11 +32,12 @@ from ..motion.features import (
     decode_features,
     encode_features,
     integrate_root,
+    mirror_features,
 )
 from ..motion.motion import Motion, resample_motion
 from ..motion.postprocess.stitching import blend_boundaries, place_of
 from ..motion.rotations import turn_about_y
-from ..motion.skeleton import JOINT_INDEX, LIMBS, NUM_JOINTS
+from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, LIMBS, MIRROR, NUM_JOINTS
 from ..motion.trajectory import FPS
 from ..tensors import Tensor, torch
 from .stream import OVERLAP, Miss, Passage, stream_features
@@ -267,6 +268,10 @@ def beside(
     """Features [T,R,6] in which, from `start` on, some joints do what a passage says: filled in, or
     where the body sits (`seat`) as it does alone, for there they would hardly move."""
     stop = start + passage.frames
+    if passage.mirrored and not seat:
+        turned = replace(passage, mirrored=False), mirror_features(features), start
+        other = {JOINT_NAMES[MIRROR[JOINT_INDEX[joint]]] for joint in joints}
+        return mirror_features(beside(generator, *turned, other, sampling, seat))
     if not seat:
         rest = all_but(features, start, stop, joints)
         return fill_free(generator, passage.text, rest, sampling)

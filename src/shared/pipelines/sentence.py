@@ -126,9 +126,10 @@ def _handed(text: str, read: Read) -> Clause | None:
     """A clause that names a hand which alone does it, or one of two things at once; a hand by
     itself is no other thing."""
     parted, own = _parted(text, read), with_hand(text, read)
-    if parted and own and all_words().handed.sub("", parted.meanwhile).strip(EDGES):
-        return parted
-    return own or parted
+    if parted is None or (own and not all_words().handed.sub("", parted.meanwhile).strip(EDGES)):
+        return own or parted
+    arms = with_hand(parted.meanwhile, read)
+    return replace(parted, meanwhile=arms.text, mirrored=arms.mirrored) if arms else parted
 
 
 def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
@@ -136,7 +137,8 @@ def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
     both at once, or a word says that he does ("kneeling, he waves")."""
     if clause.meanwhile and read(clause.text).action in SEATED:
         own = measured(clause.meanwhile)
-        return replace(own, seat=clause.text, side=clause.side, unheard=clause.unheard)
+        own = replace(own, seat=clause.text, side=clause.side, mirrored=clause.mirrored)
+        return replace(own, unheard=clause.unheard)
     if clause.meanwhile or clause.far or clause.held:
         return clause
     seat = before.seat or before.text

@@ -465,9 +465,9 @@ class SentenceGenerator:
         for (start, stop), part, (own, _) in zip(spans, parts, stretches, strict=True):
             if part.meanwhile or part.seat:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
-                arms = own if part.seat else Passage(part.meanwhile, stop - start)
+                arms = Passage(part.meanwhile or part.seat, stop - start, mirrored=part.mirrored)
                 rest = features, start, joints, sampling, part.seat
-                features = beside(self.generator, arms, *rest)
+                features = beside(self.generator, own if part.seat else arms, *rest)
         shown, end = list[Tensor](), 0
         for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None
@@ -516,8 +516,8 @@ class SentenceGenerator:
         elif action not in GOING:
             seconds = clause.lasting(seconds)
         frames, seconds = max(1, round(max(1, round(seconds * fps)) * pace)), seconds * pace
-        other, low = clause.hand not in ("", self._reading(clause.text).handed), action == "sit"
-        passage = Passage(clause.text, frames, tag, timed=exactly, low=low, mirrored=other)
+        mirrored, low = clause.mirrored and not clause.meanwhile, action == "sit"
+        passage = Passage(clause.text, frames, tag, timed=exactly, low=low, mirrored=mirrored)
         exactly = exactly and frames
         if self._applauds(clause):
             passage, exactly = replace(passage, text=CLAPS), passage.frames

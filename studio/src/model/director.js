@@ -199,7 +199,7 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.meanwhile || part.seat) {
         const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
-        const arms = part.seat ? passages[i] : { text: part.meanwhile, frames: spans[i][1] - spans[i][0] };
+        const arms = part.seat ? passages[i] : { text: part.meanwhile, frames: spans[i][1] - spans[i][0], mirrored: part.mirrored };
         features = await beside(this.sampler, arms, features, spans[i][0], joints, seed, part.seat);
       }
     const shown = [], joined = () => shown.reduce((sum, piece) => sum + framesOf(piece), 0);
@@ -264,7 +264,7 @@ export class Director {
     seconds *= pace;
     if (exactly !== null) exactly = frames;
     const low = this.nearest(text) === "sit"; // gone down to by a way of its own
-    const mirrored = !["", this.reading(text).handed].includes(clause.hand);
+    const mirrored = clause.mirrored && !clause.meanwhile;
     const led = (given) => ({ passage: { text, frames: framesOf(given.values), afresh, low, mirrored }, given });
     if (this.applauds(clause) && !(await this.turns(clause))) {
       const claps = Math.max(1, round(seconds / CLAP));

@@ -4,7 +4,7 @@ import { turnAboutY } from "../body/rotations.js";
 import { round } from "../body/curves.js";
 import { blendBoundaries } from "../body/whole.js";
 import {
-  cut, decodeFeatures, encodeFeatures, FORWARD, framesOf, headingsOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, ORIGIN,
+  cut, decodeFeatures, encodeFeatures, FORWARD, framesOf, headingsOf, integrateRoot, joinArrays, LATERAL, LEFT_CONTACT, mirrored, ORIGIN,
   placeOf, ROOT, WIDTH, YAW_RATE,
 } from "../body/features.js";
 import { FPS, GROUPS, INDEX, JOINTS, pose } from "../body/skeleton.js";
@@ -92,6 +92,10 @@ export async function fill(sampler, text, given, seed, options) {
 /** Features in which, from `start` on, some joints do what a passage says: filled in, or where the body sits (`seat`) as it does alone, for there they would hardly move. */
 export async function beside(sampler, passage, features, start, joints, seed, seat) {
   const stop = start + passage.frames;
+  if (passage.mirrored && !seat) {
+    const other = [...joints].map((name) => name.replace(/^[lr]_/u, (side) => (side === "l_" ? "r_" : "l_")));
+    return mirrored(await beside(sampler, { ...passage, mirrored: false }, mirrored(features), start, other, seed, seat));
+  }
   if (!seat) return fillFree(sampler, passage.text, allBut(features, start, stop, joints), seed);
   const alone = await streamFeatures(sampler, [passage], seed), copied = features.slice(), kept = new Uint8Array(features.length).fill(1);
   for (let t = start; t < stop; t++)

@@ -21,14 +21,14 @@ const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|p
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
 const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
 const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, hand: "", unheard: "" });
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, mirrored: false, unheard: "" });
 
 /** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
 export const lasting = ({ tempo }, seconds) => (seconds <= ONCE ? seconds / tempo : seconds);
 
 export const isPlain = (clause) =>
   clause.count === 1 && clause.degrees === null && clause.metres === null && clause.seconds === null && clause.steps === null
-  && !clause.meanwhile && clause.side === "both" && !clause.held && !clause.seat && clause.tempo === 1 && !clause.hand;
+  && !clause.meanwhile && clause.side === "both" && !clause.held && !clause.seat && clause.tempo === 1 && !clause.mirrored;
 
 function strip(text, characters = EDGES) {
   let start = 0, stop = text.length;
@@ -131,7 +131,7 @@ export class SentenceReader {
   seated(before, clause) {
     const low = (text) => SEATED.includes(this.read(text).action);
     if (clause.meanwhile && low(clause.text))
-      return { ...this.measured(clause.meanwhile), seat: clause.text, side: clause.side, unheard: clause.unheard };
+      return { ...this.measured(clause.meanwhile), seat: clause.text, side: clause.side, mirrored: clause.mirrored, unheard: clause.unheard };
     if (clause.meanwhile || clause.held || isFar(clause)) return clause;
     const seat = before.seat || before.text;
     if (this.read(clause.text).arms && low(seat)) return { ...clause, seat, side: this.sideOf(clause.text) };
@@ -168,7 +168,9 @@ export class SentenceReader {
   /** A clause that names a hand which alone does it, or one of two things at once; a hand by itself is no other thing. */
   handed(text) {
     const parted = this.parted(text), own = this.withHand(text);
-    return parted && own && strip(parted.meanwhile.replace(this.each.handed, "")) ? parted : own ?? parted;
+    if (!parted || (own && !strip(parted.meanwhile.replace(this.each.handed, "")))) return own ?? parted;
+    const arms = this.withHand(parted.meanwhile);
+    return arms ? { ...parted, meanwhile: arms.text, mirrored: arms.mirrored } : parted;
   }
 
   /** A clause without the words that say with which hand or foot it is done, where it was learned of one of them alone ("salutes with the left hand", which is nearer to waves). */
@@ -182,7 +184,7 @@ export class SentenceReader {
       clause = surely(this.read(other.text)) === hop ? other : { ...clause, text: hops };
     }
     const own = this.read(clause.text), sure = surely(own) || (own.known && own.action === whole.action);
-    return side === "both" || !sure || !own.handed || this.first.footed.test(said[0]) !== (own.action === hop) ? null : { ...clause, hand: side };
+    return side === "both" || !sure || !own.handed || this.first.footed.test(said[0]) !== (own.action === hop) ? null : { ...clause, mirrored: side !== own.handed };
   }
 
   /** A clause that has its tempo, where what is done is read without that word, and no other thing is than with it. */

@@ -726,7 +726,7 @@ def test_what_was_learned_of_one_side_is_mirrored_for_the_other(
     """Who salutes with the left hand waved."""
     sentences = SentenceGenerator(loaded)
     [clause] = sentences.clauses(prompt)
-    assert clause.hand == "left" and sentences._nearest(clause.text) == action
+    assert clause.mirrored and sentences._nearest(clause.text) == action
     [left] = sentences.generate([prompt])
     [right] = sentences.generate([re.sub("left|gauche|左", lambda s: OTHER[s[0]], prompt)])
     assert right.num_frames == left.num_frames
@@ -756,3 +756,22 @@ def test_who_sits_keeps_his_legs(loaded: TextToMotion) -> None:
     [motion] = SentenceGenerator(loaded).generate(["sits and drinks with the left hand"])
     knees = motion.positions()[20:, [JOINT_INDEX["l_knee"], JOINT_INDEX["r_knee"]], 1]
     assert np.ptp(knees, axis=0).max() < 0.12
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["walks while saluting with the left hand", "he salutes with the left hand while walking",
+     "歩きながら左手で敬礼する", "camina mientras saluda militarmente con la mano izquierda"],
+)  # fmt: skip
+def test_the_arms_of_who_walks_are_mirrored_alone(prompt: str, loaded: TextToMotion) -> None:
+    sentences = SentenceGenerator(loaded)
+    [clause] = sentences.clauses(prompt)
+    assert clause.meanwhile and clause.mirrored
+    assert [sentences._nearest(each) for each in (clause.text, clause.meanwhile)] == [
+        "walk",
+        "salute",
+    ]
+    [motion] = sentences.generate([prompt])
+    wrists = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
+    assert wrists[:, 0].max() > wrists[:, 1].max() + 0.3  # the left one is raised
+    assert np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=1).sum() > 2.0

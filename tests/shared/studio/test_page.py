@@ -125,7 +125,8 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
      "does seven jumping jacks", "crawls, then lies down", "sits down, then sleeps",
      "salutes with the left hand", "hops on the left leg three times",
      "walks, then drinks with her left hand", "trinkt mit der linken Hand und winkt dann",
-     "crawls, then dies", "sits and drinks with the left hand", "hops forward on the left foot"],
+     "crawls, then dies", "sits and drinks with the left hand", "hops forward on the left foot",
+     "walks while saluting with the left hand"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
