@@ -28,7 +28,7 @@ from .skeleton import MIRROR, NUM_JOINTS, PARENTS, REST_PELVIS_HEIGHT, canonical
 
 FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT, RIGHT_CONTACT = range(6)
 ROOT_ROW = NUM_JOINTS  # index of the root track among the rows
-TURNED_OVER = -0.5  # how far up, of 1, the back of who has no heading points at most: 120 degrees
+TURNED_OVER = -0.5  # cosine: a pelvis that is tilted by more, 120 degrees, has no heading
 # What a mirror does to the first two columns of a matrix: M·R·M, M = diag(-1, 1, 1).
 _MIRROR_SIGNS = (1.0, -1.0, -1.0, -1.0, 1.0, 1.0)
 
@@ -45,18 +45,13 @@ class Place:
 ORIGIN = Place()
 
 
-def has_heading(matrices: Tensor) -> Tensor:
-    """Whether each of these pelvis rotations [T,3,3] has one: not who is upside down."""
-    return matrices[:, 1, 1] > TURNED_OVER
-
-
 def headings(matrices: Tensor, spans: Sequence[slice] = (slice(None),)) -> Tensor:
     """Heading [T] in radians of pelvis rotations [T,3,3], without jumps of 2π within each span.
 
     Who is upside down has none that could be told (the twist about +Y goes half round there from
     one frame to the next): he turns evenly from the one before to the one after.
     """
-    angles, upright = heading_angle(matrices).numpy(), has_heading(matrices).numpy()
+    angles, upright = heading_angle(matrices).numpy(), matrices[:, 1, 1].numpy() > TURNED_OVER
     whole = [np.empty(0, angles.dtype)]
     for span in spans:
         own, frames = angles[span], np.flatnonzero(upright[span])

@@ -25,12 +25,11 @@ from ..errors import UsageError
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place, has_heading
+from ..motion.features import LEFT_CONTACT, ROOT_ROW, Place, headings
 from ..motion.filters import smoothed
 from ..motion.motion import Danced, Motion
 from ..motion.postprocess.stitching import blend_cuts
 from ..motion.rotations import (
-    heading_of,
     matrix_to_rotation_6d,
     quaternion_to_matrix,
     turn_about_y,
@@ -202,8 +201,7 @@ def start_of(trajectory: MotionTrajectory) -> Place:
 
 @dataclass(frozen=True)
 class RootError:
-    """How far a body's pelvis is from its path: metres and, while it is not upside down, degrees of
-    heading."""
+    """How far a body's pelvis is from its path: metres and degrees of heading."""
 
     mean_metres: float
     max_metres: float
@@ -215,10 +213,9 @@ def root_error(motion: Motion, trajectory: MotionTrajectory) -> RootError:
     """Compare a body with the path that it was to stand on, both of T frames."""
     apart = np.linalg.norm(motion.root_position - trajectory.position, axis=-1)
     pelvis = torch.tensor(motion.quaternions[:, PELVIS], dtype=torch.float64)
-    turned = heading_of(pelvis).numpy() - trajectory.heading
+    ahead = yaw_to_matrix(-torch.as_tensor(trajectory.heading, dtype=torch.float64))
+    turned = headings(ahead @ quaternion_to_matrix(pelvis)).numpy()
     degrees = np.rad2deg(np.abs((turned + np.pi) % (2 * np.pi) - np.pi))
-    degrees = degrees[has_heading(quaternion_to_matrix(pelvis)).numpy()]
-    degrees = degrees if len(degrees) else np.zeros(1)
     return RootError(
         *(float(value) for value in (apart.mean(), apart.max(), degrees.mean(), degrees.max()))
     )

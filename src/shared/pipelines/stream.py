@@ -204,14 +204,10 @@ def stream_features(
             piece, best = nearest_to_wanted(tries, own, passage.miss)
             lucky = [noises[best]] if passage.window else []
             if bridges(passage) and not len(shared) and len(before) and is_apart(before, piece):
-                if passage.timed is None:  # who lies down on his knees does not stand up for it
-                    piece = piece[gone_down(before[-1], piece) :]
-                    made, length = made + max(length - len(piece), 0), min(length, len(piece))
-                way = bridge(before, piece, fps)
-                if passage.timed is not None:  # a part of what the passage has
-                    cut = min(len(way), length // 2)
-                    piece, length, made = piece[cut:], length - cut, made + cut
-                    way = bridge(before, piece, fps, cut)
+                way, piece, left = way_to(
+                    before, piece, length, fps, within=passage.timed is not None
+                )
+                made, length = made + length - left, left
                 before = torch.cat((before, way))
                 if told is not None:
                     told(len(way))
@@ -263,6 +259,19 @@ def spanned_features(
         0 if passage.timed is not None else way for passage, way in zip(passages, ways, strict=True)
     ]
     return features, [*zip(map(sum, zip(begun, own, strict=True)), stops, strict=True)]
+
+
+def way_to(
+    before: Tensor, piece: Tensor, length: int, fps: float, *, within: bool
+) -> tuple[Tensor, Tensor, int]:
+    """The way [t, R, 6] to a piece, the piece from where it ends on, and how many of the piece's
+    `length` frames that leaves; `within` these, or beyond them. Who lies down on his knees does not
+    stand up for it, unless the frames are counted."""
+    if within:
+        cut = min(len(bridge(before, piece, fps)), length // 2)
+        return bridge(before, piece[cut:], fps, cut), piece[cut:], length - cut
+    piece = piece[gone_down(before[-1], piece) :]
+    return bridge(before, piece, fps), piece, min(length, len(piece))
 
 
 def is_apart(before: Tensor, piece: Tensor) -> bool:

@@ -465,9 +465,9 @@ class SentenceGenerator:
         for (start, stop), part, (own, _) in zip(spans, parts, stretches, strict=True):
             if part.meanwhile or part.seat:
                 joints = chosen_joints(["arms" if part.side == "both" else f"{part.side}-arm"])
-                arms = Passage(part.meanwhile or part.seat, stop - start, mirrored=part.mirrored)
+                arms = own if part.seat else Passage(part.meanwhile, 1, mirrored=part.mirrored)
                 rest = features, start, joints, sampling, part.seat
-                features = beside(self.generator, own if part.seat else arms, *rest)
+                features = beside(self.generator, replace(arms, frames=stop - start), *rest)
         shown, end = list[Tensor](), 0
         for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None

@@ -265,7 +265,7 @@ class Words:
         self.held = Rare(held, [w for key in ("held", "holds", "stays") for w in all_of(key)])
         self.arms, self.about = (re.compile(_any(all_of(w)), re.I) for w in ("limbs", "about"))
         side, wields = _any(all_of("sided")), _any(all_of("wields"))
-        tools = [_any([*all_of(limbs)]) for limbs in ("limbs", "legs")]
+        tools = [_any(all_of(limbs)) for limbs in ("limbs", "legs")]
         tools = [
             rf"{wields}\s+(?:{whose}\s+)?(?:{side}\s+{tool}|{tool}\s+{side})" for tool in tools
         ]

@@ -13,7 +13,7 @@ export const WIDTH = ROWS * 6; // numbers a frame
 export const ROOT = 22 * 6; // where the root row begins
 export const [FORWARD, LATERAL, HEIGHT, YAW_RATE, LEFT_CONTACT] = [0, 1, 2, 3, 4];
 const MIRROR_SIGNS = [1, -1, -1, -1, 1, 1]; // of the first two columns of a matrix
-const TURNED_OVER = -0.5; // how far up, of 1, the back of who has no heading points at most: 120 degrees
+const TURNED_OVER = -0.5; // cosine: a pelvis that is tilted by more, 120 degrees, has no heading
 export const ORIGIN = { x: 0, z: 0, heading: 0 };
 
 export const framesOf = (features) => features.length / WIDTH;

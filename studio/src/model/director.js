@@ -199,7 +199,7 @@ export class Director {
     for (const [i, part] of parts.entries())
       if (part.meanwhile || part.seat) {
         const joints = chosenJoints([part.side === "both" ? "arms" : `${part.side}-arm`]);
-        const arms = part.seat ? passages[i] : { text: part.meanwhile, frames: spans[i][1] - spans[i][0], mirrored: part.mirrored };
+        const arms = { ...(part.seat ? passages[i] : { text: part.meanwhile, mirrored: part.mirrored }), frames: spans[i][1] - spans[i][0] };
         features = await beside(this.sampler, arms, features, spans[i][0], joints, seed, part.seat);
       }
     const shown = [], joined = () => shown.reduce((sum, piece) => sum + framesOf(piece), 0);

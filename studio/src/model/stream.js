@@ -166,7 +166,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
         if (least <= 0) break;
       }
       if (bridges(passage) && !shared.length && before.length && isApart(before, best)) {
-        if (!passage.timed) { // who lies down on his knees does not stand up for it
+        if (passage.timed === undefined) { // who lies down on his knees does not stand up for it
           best = cut(best, goneDown(before, best));
           made += Math.max(length - framesOf(best), 0);
           length = Math.min(length, framesOf(best));

@@ -390,9 +390,10 @@ class Page {
   setPlaying(playing) {
     this.playing = playing && Boolean(this.shown && this.stage);
     $("play").textContent = this.playing ? "Pause" : "Play";
+    if (this.shown && !this.playing) this.seek(this.time); // as the stage shows it
   }
 
-  /** Show a moment; the clock and the slider follow at once, or while it plays often enough to be read: each time they are drawn costs as much as a body. */
+  /** Show a moment; the clock and the slider follow at once, while it plays often enough to be read: in every frame they make frames late (docs/studio.md). */
   seek(time, atOnce = true) {
     this.time = time;
     this.stage?.placeAt(time);

@@ -146,5 +146,7 @@ def test_who_says_nothing_for_a_while_is_heard_later(
     time.sleep(2 * SLOW)
     client.sendall(masked(1, b"walks")[:4])
     time.sleep(2 * SLOW)
+    assert not heard and len(server._clients) == 1
     client.sendall(masked(1, b"walks")[4:])
-    until(lambda: heard == ["walks"])
+    until(lambda: bool(heard))
+    assert heard == ["walks"]

@@ -775,3 +775,13 @@ def test_the_arms_of_who_walks_are_mirrored_alone(prompt: str, loaded: TextToMot
     wrists = motion.positions()[:, [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]], 1]
     assert wrists[:, 0].max() > wrists[:, 1].max() + 0.3  # the left one is raised
     assert np.linalg.norm(np.diff(motion.root_position[:, [0, 2]], axis=0), axis=1).sum() > 2.0
+
+
+def test_arms_last_as_long_as_what_goes_on_lower(loaded: TextToMotion) -> None:
+    """They had the frames that are left out where the body is low already."""
+    sentences = SentenceGenerator(loaded)
+    [low] = sentences.generate(["crawls, then lies down while waving"])
+    [stands] = sentences.generate(["crawls, then lies down while waving, then stands up"])
+    wrists = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
+    assert np.isfinite(low.positions()).all() and stands.num_frames > low.num_frames
+    assert stands.positions()[-15:, wrists, 1].max() < 1.0  # nobody waves any more
