@@ -226,7 +226,7 @@ def without_tempo(text: str) -> tuple[str, float]:
     return closed(text), found.pop()
 
 
-def with_hand(text: str, read: Read) -> Clause | None:
+def without_hand(text: str, read: Read) -> Clause | None:
     """A clause without the words that say with which hand or foot it is done, where it was learned
     of one of them alone ("salutes with the left hand", which is nearer to waves)."""
     words = all_words()

@@ -23,8 +23,8 @@ from .clause import (
     in_tempo,
     measured,
     trimmed,
-    with_hand,
     without,
+    without_hand,
     without_tempo,
 )
 from .words import (
@@ -89,7 +89,7 @@ def clauses(
         return found
 
     def heard(text: str) -> Reading:
-        return read(clause.text) if (clause := with_hand(text, known)) else known(text)
+        return read(clause.text) if (clause := without_hand(text, known)) else known(text)
 
     for whole in _ordered(_staying(plain_text(tidied(sentence)), known), heard):
         (pieces, unheard), last = _joined(whole, heard, strange), found[-1] if found else None
@@ -125,10 +125,10 @@ def clauses(
 def _handed(text: str, read: Read) -> Clause | None:
     """A clause that names a hand which alone does it, or one of two things at once; a hand by
     itself is no other thing."""
-    parted, own = _parted(text, read), with_hand(text, read)
+    parted, own = _parted(text, read), without_hand(text, read)
     if parted is None or (own and not all_words().handed.sub("", parted.meanwhile).strip(EDGES)):
         return own or parted
-    arms = with_hand(parted.meanwhile, read)
+    arms = without_hand(parted.meanwhile, read)
     return replace(parted, meanwhile=arms.text, mirrored=arms.mirrored) if arms else parted
 
 

@@ -167,14 +167,14 @@ export class SentenceReader {
 
   /** A clause that names a hand which alone does it, or one of two things at once; a hand by itself is no other thing. */
   handed(text) {
-    const parted = this.parted(text), own = this.withHand(text);
+    const parted = this.parted(text), own = this.withoutHand(text);
     if (!parted || (own && !strip(parted.meanwhile.replace(this.each.handed, "")))) return own ?? parted;
-    const arms = this.withHand(parted.meanwhile);
+    const arms = this.withoutHand(parted.meanwhile);
     return arms ? { ...parted, meanwhile: arms.text, mirrored: arms.mirrored } : parted;
   }
 
   /** A clause without the words that say with which hand or foot it is done, where it was learned of one of them alone ("salutes with the left hand", which is nearer to waves). */
-  withHand(text) {
+  withoutHand(text) {
     const said = this.first.handed.exec(text);
     if (!said || this.first.denies.test(text.slice(0, said.index))) return null;
     const whole = this.read(text), side = this.sideOf(said[0]), [hop, foot, hops] = HOP;
@@ -519,7 +519,7 @@ export class SentenceReader {
 
   /** What a text asks for beside the hand that it names. */
   heard(text) {
-    return this.read(this.withHand(text)?.text ?? text);
+    return this.read(this.withoutHand(text)?.text ?? text);
   }
 
   hearing(part) {

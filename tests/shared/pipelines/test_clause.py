@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.pipelines.clause import LAP, LONG_REST, ONCE, Clause, Reading, with_hand
+from src.shared.pipelines.clause import LAP, LONG_REST, ONCE, Clause, Reading, without_hand
 
 
 @given(
@@ -57,7 +57,7 @@ def reading(text: str) -> Reading:
      ("左手で敬礼 salute", "敬礼 salute", "left")],
 )  # fmt: skip
 def test_the_hand_is_taken_out_where_one_was_learned(text: str, rest: str, hand: str) -> None:
-    clause = with_hand(text, reading)
+    clause = without_hand(text, reading)
     assert clause is not None and clause.text == rest
     assert clause.mirrored == (hand == "left") and clause.plain == (hand == "right")
 
@@ -69,4 +69,4 @@ def test_the_hand_is_taken_out_where_one_was_learned(text: str, rest: str, hand:
      "with his left hand on his hip he salutes"],
 )  # fmt: skip
 def test_it_stays_where_both_were_learned_or_none_is_named(text: str) -> None:
-    assert with_hand(text, reading) is None
+    assert without_hand(text, reading) is None
