@@ -14,12 +14,12 @@ from .words import (
     ARRIVES,
     CJK_SIGN,
     EDGES,
+    FEW,
     MAX_COUNT,
     MOST,
     UNITS,
     all_words,
     bare,
-    measure_of,
     plain_text,
     side_of,
     value_of,
@@ -78,6 +78,7 @@ class Clause:
         side: left, right or both.
         seat: what the body goes on to do meanwhile, who sits or kneels.
         held: whether it stays as it is when it is done, to the end.
+        once: whether it says that it is done once.
         tempo: how many times as fast as usual.
         mirrored: whether it, or what the arms do meanwhile, names the hand of which it was not
             learned.
@@ -94,6 +95,7 @@ class Clause:
     side: str = "both"
     seat: str = ""
     held: bool = False
+    once: bool = False
     tempo: float = 1.0
     mirrored: bool = False
     unheard: str = ""
@@ -133,8 +135,8 @@ class Clause:
 
     @property
     def plain(self) -> bool:
-        """Whether it says nothing but what to do."""
-        return self == Clause(self.text, unheard=self.unheard)
+        """Whether it says nothing but what to do, be it once."""
+        return self == Clause(self.text, once=self.once, unheard=self.unheard)
 
 
 def measured(text: str) -> Clause:
@@ -197,10 +199,34 @@ def _counted(clause: Clause) -> Clause:
         number = int(value_of(next(filter(None, match.groups()))))
     else:
         return clause
-    rest = without(clause.text, match) if number > 1 else ""
+    rest = without(clause.text, match)
+    if number == 1:
+        return replace(clause, once=rest != "" and words.piece.search(match[0]) is None)
     if number > MAX_COUNT:  # nobody means it: it is told that nothing is made of it
         return replace(clause, text=rest, unheard=match[0]) if rest else clause
     return replace(clause, text=rest, count=number) if rest else clause
+
+
+def measure_of(unit: str, text: str, least: float) -> re.Match[str] | None:
+    """The first measure in a text that is so large."""
+    found = all_words().units[unit].finditer(text)
+    return next((each for each in found if value_of(each["number"]) >= least), None)
+
+
+def place_kept(text: str) -> re.Match[str] | None:
+    """The words by which somebody who goes is to stay where he is: last of what is done, or before
+    the verb, where Chinese and Japanese have them; "his helmet in place" is no such thing."""
+    words = all_words()
+    found = words.in_place.search(text)
+    if found is None or words.off.search(text):
+        return None
+    before, after = text[: found.start()].strip(EDGES), text[found.end() :].strip(EDGES)
+    if re.match(CJK_SIGN, found[0]):
+        return found if after else None
+    first = not before and len(after.split()) <= FEW
+    last = not after or words.sign.match(after)
+    another = words.sign.search(before) or words.joint.search(before)  # thing that is in place
+    return found if first or (last and not another) else None
 
 
 def without(text: str, match: re.Match[str], stays: str = "") -> str:
@@ -242,6 +268,31 @@ def without_hand(text: str, read: Read) -> Clause | None:
     if side == "both" or not sure or not own.handed or legs != (own.action == HOP[0]):
         return None
     return replace(clause, mirrored=side != own.handed)
+
+
+def without_subject(text: str, read: Read) -> str:
+    """A text without who does it: a word for a person, or a name behind an article, in English with
+    a word between them, where it is sure what the rest asks for; as it is where it has none."""
+    words = all_words()
+    rest = words.subject.sub("", text)
+    if rest != text:
+        return rest
+    for number, (stop, start) in enumerate(blanks(text)[1:3]):
+        rest = text[start:]
+        if words.named.match(text[:stop]) and (not number or is_verb(rest)) and read(rest).surely:
+            return rest
+    return text
+
+
+def is_verb(text: str) -> bool:
+    """Whether a text may begin with an English verb that has somebody before it."""
+    first, *_ = text.split()
+    return len(first) > 3 and first.endswith("s")
+
+
+def blanks(text: str) -> list[tuple[int, int]]:
+    """Where words meet, in writing without blanks all places but behind the first sign."""
+    return [m.span() for m in re.finditer(rf"\s+|(?<={CJK_SIGN}{{2}})(?={CJK_SIGN}{{2}})", text)]
 
 
 def closed(text: str) -> str:

@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from .clause import (
+    ABOUT,
     GOING,
     HELD,
     HELD_MARK,
@@ -20,11 +21,16 @@ from .clause import (
     Clause,
     Read,
     Reading,
+    blanks,
+    closed,
     in_tempo,
+    is_verb,
     measured,
+    place_kept,
     trimmed,
     without,
     without_hand,
+    without_subject,
     without_tempo,
 )
 from .words import (
@@ -36,7 +42,6 @@ from .words import (
     all_words,
     bare,
     names_both,
-    place_kept,
     plain_text,
     side_of,
     tidied,
@@ -53,6 +58,8 @@ HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
 SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
+CROUCHES = "crouch-walk", "crouch"
+UNDEAD = "zombie"  # the action that is somebody
 MOST_PIECES = 8  # between commas, that may be one part
 
 Strange = Callable[[str], object]
@@ -61,7 +68,9 @@ PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
     "ups": (GOT_UP, STANDS),
     "bends": (Reading("turn", 3.0), "turns left"),
     "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
+    "falls": (Reading("die", 3.0), "dies"),
 }
+LIES = frozenset({"die", "get-up", "lie-down", "sleep", "pick-up"})  # what falls are taken for
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -81,10 +90,11 @@ def clauses(
     words, found = all_words(), list[Clause]()
 
     def known(text: str) -> Reading:
-        own = (own for name, (own, _) in PLAINLY.items() if _says(name, text, read))
+        calm = without_tempo(text)[0] if words.tempo.search(text) else text
+        own = (own for name, (own, _) in PLAINLY.items() if _says(name, calm, read))
         found = next(own, None) or read(_bared(text, read))
-        if found.surely is None and (rest := without_tempo(text)[0]) not in ("", text):
-            paced = known(rest)  # how fast is no part of what is done
+        if found.surely is None and calm not in ("", text):
+            paced = known(calm)  # how fast is no part of what is done
             return paced if paced.surely else found
         return found
 
@@ -109,13 +119,15 @@ def clauses(
     elif _says("ups", found[waits].text, read) and read(SITS).action in LOW:
         sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
         found[:waits] = [sits]
-    found = [_plainly(each, read, alone=len(found) == 1) for each in found]
+    said, found = found[-1], [_plainly(each, read, alone=len(found) == 1) for each in found]
+    if found[-1].text == SQUATS != said.text and found[-1].plain and not said.once:
+        found[-1] = replace(found[-1], held=True)  # who crouches stays there
     for at, clause in enumerate(found):
         before, ends = found[at - 1] if at else Clause(""), at == len(found) - 1
         if at and clause.text == STANDS and clause.seconds is None and not ends:
             found[at] = replace(clause, seconds=RISEN)
             continue
-        found[at] = _seated(before, clause, known)
+        found[at] = _seated(before, _walking_back(before, clause, known), known)
         if at and found[at].seat and found[at] != clause and before == Clause(before.text):
             down = RISEN if known(before.text).action in LOW else LAID
             found[at - 1] = replace(before, seconds=down)  # there is more to come
@@ -130,6 +142,19 @@ def _handed(text: str, read: Read) -> Clause | None:
         return own or parted
     arms = without_hand(parted.meanwhile, read)
     return replace(parted, meanwhile=arms.text, mirrored=arms.mirrored) if arms else parted
+
+
+def _walking_back(before: Clause, clause: Clause, read: Read) -> Clause:
+    """Who has turned round and goes back goes ahead."""
+    words = all_words()
+    said = words.returns.search(clause.text)
+    about = before.degrees in (ABOUT, -ABOUT) or (
+        before.plain and read(before.text).surely == "turn"
+    )
+    if said is None or clause.degrees is not None or not about:
+        return clause
+    text = without(clause.text, said, words.returned[bare(plain_text(said[0]))])
+    return replace(clause, text=closed(text)) if read(text).surely in GOING else clause
 
 
 def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
@@ -156,15 +181,19 @@ def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
 def _says(name: str, text: str, read: Read) -> bool:
     """Whether a text is one of a pattern of `PLAINLY`, whose words `read` understands."""
     own, said = PLAINLY[name]
-    return bool(vars(all_words())[name].fullmatch(text)) and read(said).action == own.action
+    learned = name == "falls" and read(text).surely not in (None, *LIES)  # as something of its own
+    says = bool(vars(all_words())[name].fullmatch(text)) and not learned
+    return says and read(said).action == own.action
 
 
 def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     """A clause in words of the tower; a bend that is all there is may be a walk."""
-    text, arms = clause.text, clause.meanwhile
-    text = _bared(text, read) if arms or not alone else text
-    if _says("ups", text, read):
-        text = STANDS
+    text, arms = _bared(clause.text, read), clause.meanwhile
+    for name, words in (("ups", STANDS), ("falls", PLAINLY["falls"][1])):
+        text = words if _says(name, text, read) else text
+    crouches = all_words().crouched.match(text) and read(SQUATS).action == "squat"
+    if crouches and read(text).surely in (None, "squat", *CROUCHES):
+        text = SQUATS
     if not alone and _says("bends", text, read) and read(text).surely != "turn":
         text = f"turns {side_of(text)}"
     if _says("posed", arms, read) and read(arms).surely != "raise":
@@ -176,10 +205,18 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
 
 
 def _bared(text: str, read: Read) -> str:
-    """A text, without its subject where only then it is sure what it asks for."""
-    rest = all_words().subject.sub("", text)
-    unsure = rest != text and read(text).surely is None
-    return rest if unsure and read(rest).surely else text
+    """A text without its subject, where only then it is sure, or known, what it asks for; or where
+    the subject alone asks for something else ("a zombie dies")."""
+    rest, asked = without_subject(text, read), read(text)
+    if rest == text:
+        return text
+    own, someone = read(rest), all_words().subject.match(text) is not None
+    if own.surely is None or asked.surely is None:
+        return rest if own.surely and (someone or not asked.known) else text
+    if own.action == asked.action:
+        return rest if someone and own.known and not asked.known else text
+    moved = own.action in GOING | {"stand"} and asked.action == UNDEAD  # a way to move
+    return rest if is_verb(rest) and not (someone or moved) else text
 
 
 def whole(sentence: str, found: Sequence[Clause]) -> str:
@@ -305,7 +342,7 @@ def _subordinate(text: str, read: Read) -> tuple[str, str] | None:
     if not commas:  # "after walking in he waves | and then bows"
         ends = [found.start() for each in (words.then, words.joint) if (found := each.search(text))]
         ands = [match.span() for match in words.joint.finditer(text)]  # not beside one
-        cuts = [cut for cut in _blanks(text) if not words.whoever.search(text[: cut[0]])
+        cuts = [cut for cut in blanks(text) if not words.whoever.search(text[: cut[0]])
                 and not any(cut[1] >= one[0] and cut[0] <= one[1] for one in ands)]  # fmt: skip
         early = [cut for cut in cuts if cut[1] < min(ends, default=0)]
         return _best(text, early, read) or _best(text, cuts, read)
@@ -350,6 +387,7 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     asides = [_is_aside(text[start:stop], first=not place)
               for place, (start, stop) in enumerate(pieces)]  # fmt: skip
     more = [words.meanwhile.search(piece) or HELD_MARK.search(piece) for piece in each]
+    kept = [bool(aside or said) for aside, said in zip(asides, more, strict=True)]
     odd = [not (aside or said or read(measured(piece).text).surely) and strange(piece)
            for aside, said, piece in zip(asides, more, each, strict=True)]  # fmt: skip
     # The best ways up to a piece, one for what their last part is.
@@ -380,7 +418,31 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
         any(odd) and any(read(measured(part).text).known for part in best.parts)
     ):
         return list(best.parts), HELD_MARK.sub("", ", ".join(each[at] for at in best.passed))
-    return [text], ""
+    if lost := _lost(text, pieces, each, kept, read):
+        heard = [span for span, piece in zip(pieces, each, strict=True) if piece not in lost]
+        text = trimmed(text[heard[0][0] : heard[-1][1]])
+    return [text], HELD_MARK.sub("", ", ".join(lost))
+
+
+def _lost(
+    text: str, pieces: Sequence[Span], each: Sequence[str], kept: Sequence[bool], read: Read
+) -> list[str]:
+    """Pieces beside an "and" that are not `kept` and of which nothing is heard, where another is
+    known: "gets hit and doubles over"."""
+    words, known, lost = all_words(), False, list[str]()
+    joined = [words.conjunction.fullmatch(text, one[1], other[0]) is not None
+              and text[other[0] : other[0] + 1] != "'"
+              for one, other in pairwise(pieces)]  # fmt: skip
+    for at, piece in enumerate(each):
+        reading = read(measured(piece).text)
+        known |= reading.surely is not None and reading.known
+        behind, before = at > 0 and joined[at - 1], at < len(joined) and joined[at]
+        size = len(piece) / 2 if re.match(CJK_SIGN, piece) else len(piece.split())
+        long = size > 2 or (size > 1 and behind and is_verb(piece))
+        heard = reading.surely is not None or reading.known or words.tempo.search(piece)
+        if (behind or before) and long and not (kept[at] or heard):
+            lost.append(piece)
+    return lost if known else []
 
 
 def _begins_after(text: str, then: re.Match[str]) -> bool:
@@ -429,11 +491,6 @@ def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None
     return best
 
 
-def _blanks(text: str) -> list[Span]:
-    """Where words meet, in writing without blanks all places but behind the first sign."""
-    return [m.span() for m in re.finditer(rf"\s+|(?<={CJK_SIGN}{{2}})(?={CJK_SIGN}{{2}})", text)]
-
-
 # ---------------------------------------------------------------- at once
 
 
@@ -461,7 +518,7 @@ def _parted(text: str, read: Read) -> Clause | None:
     for cuts, sure, enough in (
         (marks, SURE_AT_MARK, SURE_AT_MARK),
         (joints, SURE_AT_MARK if each else SURE_IF_SAID, SURE_IF_SAID),
-        (signs + (_blanks(text) if said or each else []), SURE, SURE),
+        (signs + (blanks(text) if said or each else []), SURE, SURE),
     ):
         found = [pair for stop, start in cuts
                  if (pair := _pair(text[:stop], text[start:], read, sure))

@@ -10,10 +10,8 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from itertools import accumulate, pairwise
-
-import numpy as np
 
 from ..device import idle_threads
 from ..errors import UserError
@@ -43,29 +41,16 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
-from .clause import GOING, REPEATED, Clause, Reading
+from .clause import GOING, REPEATED, Clause, Reading, without_subject
 from .edit import ControlledMotion, beside, chosen_joints, held
-from .path import (
-    TURN_REST,
-    DrawnPath,
-    Gait,
-    circled,
-    natural_gait,
-    natural_sway,
-    on_the_spot,
-    time_of_steps,
-    time_path,
-    turned,
-)  # fmt: skip
+from .path import TURN_REST, on_the_spot, time_of_steps
 from .sentence import clauses, whole
-from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features, stream_features
+from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .words import goes_round, says_number, says_often, side_of, turns_head, unlearned
+from .ways import Ways
+from .words import is_somebody, says_number, says_often, side_of, turns_head, unlearned
 
-SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
-CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
-TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
@@ -85,13 +70,25 @@ class SentenceGenerator:
         self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
         self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
         self._told, self._strange = set[str](), partial(unlearned, scope=self.scope)
-        self._bent, self._gaits = dict[str, float](), dict[tuple[str, Sampling, str | None], Gait]()
+
+    @cached_property
+    def ways(self) -> Ways:
+        """Those that clauses lead."""
+        return Ways(self.generator, self._nearest)
 
     def clauses(self, prompt: str) -> list[Clause]:
         """What a prompt asks for, in order."""
         if prompt not in self._read:
-            self._read[prompt] = clauses(prompt, self._reading, self._strange)
+            found = clauses(prompt, self._reading, self._strange)
+            self._read[prompt] = [replace(each, text=self._ahead(each.text)) for each in found]
         return self._read[prompt]
+
+    def _ahead(self, text: str) -> str:
+        """A text without who does it, where he alone makes a walk or a run go backwards."""
+        if self._nearest(text) not in GOING or is_somebody(text):
+            return text
+        rest = without_subject(text, self._reading)
+        return self.ways.ahead(text, rest) if rest != text else text
 
     def whole(self, prompt: str) -> str:
         """A prompt as one sample hears it."""
@@ -218,12 +215,12 @@ class SentenceGenerator:
         texts = [text for part in parts for text in (part.text, part.meanwhile) if text]
         same, said = True, self.whole(prompt)
         if not (apart := len(texts) > 1):  # known without its measures, or as the same with them
-            lines = self.generator.scope_warnings([said], again=again)
+            lines = self._doubts([said], again=again)
             asked, made = self._nearest(said), self._nearest(texts[0])
             same = parts[0].degrees is not None or {asked, made} in [{made}, *TWINS]
             apart = not parts[0].plain and (lines != [None] or not same)
         if apart:
-            lines = self.generator.scope_warnings(texts, again=again)
+            lines = self._doubts(texts, again=again)
         surer = self._reading(said).certainty >= self._reading(texts[0]).certainty
         if not same and surer and lines == [None] and parts[0].count > 1:
             lines = [f"prompt {said!r} is {asked!r} by its number alone, and {made!r} without it;"
@@ -235,6 +232,18 @@ class SentenceGenerator:
         unheard = filter(None, (part.unheard for part in parts))
         lines += [self._strange(text) or f"nothing is made of {text!r}" for text in unheard]
         return self._lines.setdefault(prompt, lines) if again else lines
+
+    def _doubts(self, texts: Sequence[str], *, again: bool) -> list[str | None]:
+        """A line for each text that is hardly known, as it stands and said of a person."""
+
+        def known(text: str) -> bool:
+            what, rest = self._reading(text).surely, without_subject(text, self._reading)
+            said = [self._reading(other) for other in (rest, f"a person {rest}") if what]
+            return any(each.known and each.surely == what for each in said)
+
+        lines = self.generator.scope_warnings(texts, again=again)
+        return [None if line is None or known(text) else line
+                for text, line in zip(texts, lines, strict=True)]  # fmt: skip
 
     def _by_arms(self, text: str) -> bool:
         """Whether a text asks for what arms do while the feet stand: its motion faces one way."""
@@ -324,7 +333,7 @@ class SentenceGenerator:
             return True  # refused there, with a clear line
         first, *others = self.clauses(prompt)
         one = self.generator.length_warning(seconds) is None and not others and first.plain
-        return one and not self._applauds(first) and not self._turns(first)
+        return one and not (self._applauds(first) or self._turns(first) or self._cycle(first))
 
     def _is_single(self, clause: Clause) -> bool:
         """Whether a clause asks for something that is seen once, and for no more of it."""
@@ -336,6 +345,13 @@ class SentenceGenerator:
         if self._nearest(clause.text) != "clap" or clause.count > 1 or clause.metres is not None:
             return False
         return self._reading(CLAPS).surely == "clap" and not says_number(clause.text)
+
+    def _cycle(self, clause: Clause) -> tuple[float, float] | None:
+        """Seconds of rest and from one to the next, of what is done in cycles, if a clause says how
+        often; else None."""
+        said = clause.count > 1 or clause.once
+        action = self._nearest(clause.text) or ""
+        return self.scope.cycles.get(action) if said and self.scope is not None else None
 
     def _pace(self, clause: Clause) -> float:
         """How many times as fast a clause is shown as the network makes it."""
@@ -349,24 +365,8 @@ class SentenceGenerator:
             return True
         if self._nearest(clause.text) == "turn" and side_of(clause.text) != "both":
             return not turns_head(clause.text)
-        return clause.metres is None and clause.count == 1 and self._bend(clause.text) != 0
-
-    def _gait(self, text: str, sampling: Sampling, tag: str | None = None) -> Gait:
-        if (key := (text, sampling, tag)) not in self._gaits:
-            self._gaits[key] = natural_gait(self.generator, Passage(text, 1, tag), sampling)
-        return self._gaits[key]
-
-    def _bend(self, text: str) -> float:
-        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
-        what the network makes of it turns, and does not stop turning (experiments, section 44)."""
-        if self._nearest(text) not in GOING or (side_of(text) == "both" and not goes_round(text)):
-            return 0.0
-        if text not in self._bent:
-            turning = self._gait(text, Sampling()).turning
-            left = turning > 0 if (side := side_of(text)) == "both" else side == "left"
-            angle = 360.0 if goes_round(text) else 0.0 if abs(turning) < TURNING else CORNER
-            self._bent[text] = angle if left else -angle
-        return self._bent[text]
+        goes = clause.metres is None and clause.count == 1 and self._nearest(clause.text) in GOING
+        return goes and self.ways.bend(clause.text) != 0
 
     def _one(
         self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None
@@ -450,7 +450,9 @@ class SentenceGenerator:
         low = [self._nearest(part.seat or part.text) == "sit" for part in parts]
         for at, join in enumerate(starts[1:-1]):  # who gets up
             if low[at] and not low[at + 1]:
-                begin, end = (self._gait(part.text, sampling).height for part in parts[at : at + 2])
+                begin, end = (
+                    self.ways.gait(part.text, sampling).height for part in parts[at : at + 2]
+                )
                 led |= end > begin and lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
@@ -508,7 +510,7 @@ class SentenceGenerator:
             clause = replace(clause, seconds=exactly / fps)
         steps = self._nearest(clause.text) in STEPPING and clause.seconds is None and clause.steps
         if steps:
-            gait = self._gait(clause.text, sampling, tag)
+            gait = self.ways.gait(clause.text, sampling, tag)
             clause = replace(clause, seconds=time_of_steps(steps, gait.speed))
         given, pace, action = None, self._pace(clause), self._nearest(clause.text)
         if clause.seconds is not None:
@@ -523,11 +525,11 @@ class SentenceGenerator:
             passage, exactly = replace(passage, text=CLAPS), passage.frames
             clause = replace(clause, count=max(1, round(seconds / CLAP)))
         if self._turns(clause):
-            given = self._turn(clause, seconds, sampling)
+            given = self.ways.turn(clause, seconds, sampling)
         elif clause.metres is not None:
-            given = self._led(passage, clause, sampling, timed=exactly is not None)
-        elif clause.count > 1:
-            cycle = self.scope.cycles.get(action or "") if self.scope and not exactly else None
+            given = self.ways.led(passage, clause, sampling, timed=exactly is not None)
+        elif clause.count > 1 or (self._cycle(clause) and not exactly):
+            cycle = None if exactly else self._cycle(clause)
             frames, once = clause.repeated(seconds, fps, cycle)
             if exactly is not None:
                 frames, once = exactly, math.ceil(exactly / clause.count)
@@ -540,60 +542,3 @@ class SentenceGenerator:
         if given is not None:
             return replace(passage, frames=len(given)), given
         return replace(passage, miss=self._miss(clause, passage.frames)), None
-
-    def _turn(self, clause: Clause, seconds: float, sampling: Sampling) -> Constraint:
-        """By the angle that is named; round a corner or in a circle; else in full circles, as many
-        as are named or as fill the seconds, to the side that is named or that the seed says."""
-        fps, turns = self.card.fps, self._nearest(clause.text) == "turn"
-        if clause.degrees is not None:
-            given = turned(clause.degrees, fps, clause.seconds)
-            return on_the_spot(given) if turns else given
-        side = side_of(clause.text)
-        if turns and side != "both":
-            angle = CORNER * clause.count * (1 if side == "left" else -1)
-            rest = max((seconds - TURN_SECONDS) / 2, TURN_REST)
-            time = (clause.seconds,) if clause.count > 1 else (seconds, rest)
-            return on_the_spot(turned(angle, fps, *time))
-        if bend := self._bend(clause.text):
-            if clause.seconds is None:
-                seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
-            if abs(bend) == CORNER:
-                rest = max((seconds - CORNER_SECONDS) / 2, TURN_REST)
-                given = turned(bend, fps, seconds, rest)
-            else:
-                given = circled(bend, fps, seconds)
-            sway = self._sway(Passage(clause.text, len(given)), sampling)
-            given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
-            return given
-        circles, around = clause.count, 360.0 / SPIN_SPEED
-        if circles == 1:
-            circles = max(round((seconds - 2 * TURN_REST) / around), 1)
-        elif clause.seconds is None:
-            seconds = circles * around + 2 * TURN_REST
-        left = sampling.seed % 2 == 0 if side == "both" else side == "left"
-        return turned(360.0 * (circles if left else -circles), fps, seconds)
-
-    def _led(
-        self, passage: Passage, clause: Clause, sampling: Sampling, *, timed: bool
-    ) -> Constraint:
-        """So many metres, at the pace and in the direction that are the clause's own; in its
-        seconds, unless nobody goes so fast and it is not `timed`."""
-        if not clause.metres:
-            return on_the_spot(Constraint.free(passage.frames))
-        speed, facing, *_ = self._gait(passage.text, sampling, passage.tag)
-        ahead = np.array([[0.0, 0.0], [0.0, clause.metres]])
-        fps, seconds = self.card.fps, clause.seconds
-        last = None if seconds is None else max(seconds * fps - 1, 1) / fps
-        pace = partial(time_path, DrawnPath(ahead), fps=fps, speed=speed, facing=facing)
-        try:
-            path = pace(seconds=last)
-        except UserError as error:
-            if timed:
-                raise UserError(f"{passage.text!r}: {error}") from None
-            log.warning("%r: %s; until then it takes its own time", passage.text, error)
-            path = pace(seconds=None)
-        return path.swaying(self._sway(replace(passage, frames=len(path)), sampling)).constraint()
-
-    def _sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
-        free = [*stream_features(self.generator, [passage], sampling)]
-        return natural_sway(torch.cat(free), self.card.fps)

@@ -125,6 +125,7 @@ class Words:
             for key in ("angles", "tempos")
         )  # fmt: skip
         joints = all_of("and")
+        self.conjunction = re.compile(rf"\s*{_any(joints)}\s*", re.I)
         self.comma = re.compile(rf"\s*{_COMMAS}\s*")
         self.stop = re.compile(rf"{_STOPS}|{_any(joints)}", re.I)
         self.joint = re.compile(rf"{self.stop.pattern}|{_any(all_of('next'))}", re.I)
@@ -234,11 +235,14 @@ class Words:
         self.halts = Rare(rf"{further}{halts}{ends}", all_of("halts"))
         self.halt_alone = Rare(rf"^(?:{_any(all_of('who'))}\s+)?{halts}\W*$", all_of("halts"))
         someone = rf"(?:(?:{_any(all_of('who'))}|{_any(all_of('own'))}(?:\s+{_LETTER}+){{1,2}})\s+"
-        someone += rf"|{CJK_SIGN}{{1,4}})?"
+        someone += rf"|{CJK_SIGN}{{1,8}})?"
         self.downs = Rare(rf"^{someone}{_any(all_of('downs'))}", all_of("downs"))
+        self.crouched = Rare(rf"^{someone}{_any(all_of('crouches'))}\W*$", all_of("crouches"))
+        self.falls = Rare(rf"^{someone}{_any(all_of('falls'))}\W*$", all_of("falls"))
         whose = _any(all_of("own"))
         self.named = re.compile(rf"^{whose}\s*(?:{_LETTER}+\s+)?{_LETTER}+$", re.I)  # somebody
-        subject = rf"^(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}\s*(?=\S)"
+        person = rf"(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}"
+        subject = rf"^(?:{person}|{_any(all_of('who'))})\s*(?=\S)"
         self.subject = re.compile(subject, re.I)
         bends = rf"{_any(all_of('bends'))}(?:\s*{_any(all_of('bending'))})*\W*$"
         bends = re.sub(f"(?<={CJK_SIGN})SIDE|SIDE(?={CJK_SIGN})", "[左右]", bends)
@@ -299,6 +303,7 @@ class Words:
         self.plainly |= {bare(to): plain for to, plain in goals.items()} | goals
         self.sideways = re.compile(rf"^(?:{_any([*owned, *all_of('toward')])}\s*)+$", re.I)
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
+        self.piece = Rare(_any(all_of("pieces")), all_of("pieces"))
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
         keys = "in_place", "off", "many", "crouches", "head_turns", "tempos"
         self.in_place, self.off, self.many, self.crouches, self.head_turns, self.tempo = (
@@ -307,6 +312,11 @@ class Words:
         low = {said: does for t in tables for does, many in t["postures"].items() for said in many}
         self.posture = Rare(rf"{_any(low)}(?:\s*{_COMMAS})?", [*low])
         self.postures = {bare(said): does for said, does in low.items()}
+        back = {said: does for t in tables for does, many in t["returns"].items() for said in many}
+        self.returns, self.returned = (
+            Rare(_any(back), [*back]),
+            {bare(said): back[said] for said in back},
+        )
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         several = [word for word, value in numbers.items() if value > 1]  # "one" is mostly somebody
         counted = rf"(?:{others}(?=[\s-]+\w)|(?={_any(all_of('nouns'))}))"
@@ -542,31 +552,14 @@ def _value_of_sign(sign: str) -> int:
     return 2 if sign == "两" else _ONES.index(sign) + 1
 
 
+def is_somebody(text: str) -> bool:
+    """Whether a text begins with a word for a person, which tells nothing of how he moves."""
+    return all_words().subject.match(text) is not None
+
+
 def says_often(text: str) -> bool:
     """Whether a text asks for something again and again."""
     return all_words().many.search(text) is not None
-
-
-def place_kept(text: str) -> re.Match[str] | None:
-    """The words by which somebody who goes is to stay where he is: last of what is done, or before
-    the verb, where Chinese and Japanese have them; "his helmet in place" is no such thing."""
-    words = all_words()
-    found = words.in_place.search(text)
-    if found is None or words.off.search(text):
-        return None
-    before, after = text[: found.start()].strip(EDGES), text[found.end() :].strip(EDGES)
-    if re.match(CJK_SIGN, found[0]):
-        return found if after else None
-    first = not before and len(after.split()) <= FEW
-    last = not after or words.sign.match(after)
-    another = words.sign.search(before) or words.joint.search(before)  # thing that is in place
-    return found if first or (last and not another) else None
-
-
-def measure_of(unit: str, text: str, least: float) -> re.Match[str] | None:
-    """The first measure in a text that is so large."""
-    found = all_words().units[unit].finditer(text)
-    return next((each for each in found if value_of(each["number"]) >= least), None)
 
 
 def side_of(text: str) -> str:

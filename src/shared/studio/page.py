@@ -215,7 +215,17 @@ _JAVASCRIPT = (
 def javascript_patterns() -> dict[str, Any]:
     """The patterns as JavaScript reads them, with the flags i and u, and what their words say."""
     ours = all_words()
-    tables = ("numbers", "adverbs", "angles", "tempos", "postures", "others", "plainly", "steps")
+    tables = (
+        "numbers",
+        "adverbs",
+        "angles",
+        "tempos",
+        "postures",
+        "returned",
+        "others",
+        "plainly",
+        "steps",
+    )
     said = {name: vars(ours)[name] for name in tables}
     apart = {*said, "units", "pauses"}
     alone = {name: each for name, each in vars(ours).items() if name not in apart}

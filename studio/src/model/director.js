@@ -24,7 +24,7 @@ const countOf = (words) => words.split(/\s+/u).filter(Boolean).length;
 export class Director {
   /** @param {Sampler} sampler @param {Scope} scope @param {object} settings of the model */
   constructor(sampler, scope, settings) {
-    Object.assign(this, { sampler, scope, settings, bent: new Map() });
+    Object.assign(this, { sampler, scope, settings, bent: new Map(), forward: new Map() });
     this.reader = new SentenceReader(settings.measures, (text) => this.reading(text), (text) => this.unlearned(text));
   }
 
@@ -39,10 +39,10 @@ export class Director {
   warning(prompt, seconds = Infinity) {
     const parts = this.reader.clauses(prompt);
     const texts = parts.flatMap(({ text, meanwhile }) => [text, meanwhile]).filter(Boolean);
-    let lines = texts.map((text) => this.scope.warning(text));
+    let lines = texts.map((text) => this.doubt(text));
     if (texts.length === 1) { // known without its measures, or as the same with them
       const said = this.reader.whole(prompt, parts), [asked, made] = [said, texts[0]].map((text) => this.nearest(text));
-      const same = this.scope.twins(made).includes(asked) || isPlain(parts[0]) || parts[0].degrees !== null, line = this.scope.warning(said);
+      const same = this.scope.twins(made).includes(asked) || isPlain(parts[0]) || parts[0].degrees !== null, line = this.doubt(said);
       if (isPlain(parts[0]) || (line === null && same)) lines = [line];
       const surer = this.reading(said).certainty >= this.reading(texts[0]).certainty;
       if (!same && surer && lines[0] === null && parts[0].count > 1) lines = [`“${said}” is “${asked}” by its number alone, and “${made}” without it; say it in other words.`];
@@ -57,6 +57,32 @@ export class Director {
       if (count > 1 && !led && own * this.pace(part) < count * LEAST) told.push(`“${text}”: ${count} times in ${own.toFixed(1)} seconds is not seen; give it ${count * LEAST} or more.`);
     }
     return [...new Set(told)].join(" ") || null;
+  }
+
+  /** A line for a text that is hardly known, as it stands and said of a person. */
+  doubt(text) {
+    const line = this.scope.warning(text), what = line && surely(this.reading(text));
+    if (!what) return line;
+    const rest = this.reader.withoutSubject(text), said = [rest, `a person ${rest}`].map((other) => this.reading(other));
+    return said.some((each) => each.known && surely(each) === what) ? null : line;
+  }
+
+  /** What a prompt asks for, in order; without who does it, where he alone makes a walk or a run go backwards. */
+  async clauses(prompt) {
+    const parts = this.reader.clauses(prompt);
+    for (const [i, part] of parts.entries()) {
+      const rest = GOING.includes(this.nearest(part.text)) && !this.reader.isSomebody(part.text) ? this.reader.withoutSubject(part.text) : part.text;
+      if (rest !== part.text && !(await this.goesAhead(part.text)) && (await this.goesAhead(rest))) parts[i] = { ...part, text: rest };
+    }
+    return parts;
+  }
+
+  async goesAhead(text) {
+    if (!this.forward.has(text)) {
+      const { facing, stands } = await naturalGait(this.sampler, text, 0);
+      this.forward.set(text, !stands && Math.abs(facing) < Math.PI / 2);
+    }
+    return this.forward.get(text);
   }
 
   /** A line if a text asks for what is none of a model's actions, whatever else it asks for. */
@@ -100,7 +126,7 @@ export class Director {
   async timeline(blocks, seed, options) {
     const parts = [], stretches = [];
     for (const { text, frames } of this.passages(blocks)) {
-      const own = this.reader.clauses(text), stop = (i) => round((frames * i) / own.length), least = own.length * SHORTEST;
+      const own = await this.clauses(text), stop = (i) => round((frames * i) / own.length), least = own.length * SHORTEST;
       if (own.length > 1 && frames < least * FPS) throw new Error(`“${text}” asks for ${own.length} things in ${(frames / FPS).toFixed(1)} seconds; give it ${least.toFixed(1)} or more.`);
       for (const [i, part] of own.entries()) {
         const timed = stop(i + 1) - stop(i), { passage, given } = await this.stretch(part, frames / FPS, seed, timed);
@@ -133,11 +159,11 @@ export class Director {
   // ---------------------------------------------------------------- a sentence
 
   async sentence(prompt, seconds, seed, options) {
-    const parts = this.reader.clauses(prompt), frames = round(seconds * FPS);
+    const parts = await this.clauses(prompt), frames = round(seconds * FPS);
     if (frames < MIN_FRAMES) throw new Error(`${seconds} seconds are too short; ask for ${(MIN_FRAMES / FPS).toFixed(2)} or more.`);
     const longest = this.settings.maxSeconds;
     const long = longest !== null && frames > round(longest * FPS);
-    if (parts.length > 1 || !isPlain(parts[0]) || long || this.applauds(parts[0]) || (await this.turns(parts[0])))
+    if (parts.length > 1 || !isPlain(parts[0]) || long || this.applauds(parts[0]) || this.cycle(parts[0]) || (await this.turns(parts[0])))
       return this.clausesOf(prompt, parts, seconds, seed, options);
     const said = this.reader.whole(prompt, parts), action = this.nearest(said);
     let best = null, missed = null;
@@ -290,7 +316,7 @@ export class Director {
       }
       return led(pathConstraint(swaying(path, await this.sway(text, path.points.length, seed))));
     }
-    if (count > 1) return this.repeated(clause, text, seconds, exactly, mirrored);
+    if (count > 1 || (exactly === null && this.cycle(clause))) return this.repeated(clause, text, seconds, exactly, mirrored);
     if (clause.held) return led(await this.held(clause, frames, seed, mirrored));
     return { passage: { text, frames, afresh, low, mirrored, miss: this.miss(clause, frames) } };
   }
@@ -308,6 +334,11 @@ export class Director {
     return known.action === "clap" && known.certainty > 0 && !this.reader.saysNumber(text);
   }
 
+  /** Seconds of rest and from one to the next, of what is done in cycles, if a clause says how often. */
+  cycle({ text, count, once }) {
+    return count > 1 || once ? this.scope.meta.cycles?.[this.nearest(text)] : null;
+  }
+
   /** How many times as fast a clause is shown as the network makes it. */
   pace(clause) {
     const claps = this.nearest(clause.text) === "clap" && clause.metres === null && clause.degrees === null;
@@ -316,7 +347,7 @@ export class Director {
 
   /** What a clause asks for several times, each in a window of its own, or as many as one holds of what is done in cycles. */
   repeated(clause, text, seconds, exactly, mirrored = false) {
-    const { count } = clause, cycle = exactly === null && this.scope.meta.cycles?.[this.nearest(clause.text)];
+    const { count } = clause, cycle = exactly === null && this.cycle(clause);
     let once = exactly !== null ? Math.ceil(exactly / count) : round(Math.min(Math.max(seconds / count, ONCE[0]), ONCE[1]) * FPS), frames = exactly ?? once * count;
     if (cycle) {
       const [rest, period] = cycle, lap = count * period, least = rest + lap <= AT_ONCE ? 1 : Math.ceil(lap / (LAP - rest));

@@ -144,7 +144,7 @@ export async function naturalGait(sampler, text, seed, options = {}) {
     way.forEach((v, i) => { mean[i] += v / frames; });
     turning += features[t * WIDTH + ROOT + YAW_RATE] / frames;
   }
-  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0, turning, height };
+  if (Math.hypot(...mean) < STANDING) return { speed: NATURAL, facing: 0, turning, height, stands: true };
   const facing = -round(Math.atan2(mean[1], mean[0]) / (Math.PI / 2)) * (Math.PI / 2);
   return { speed: percentile(speeds, 75), facing, turning, height };
 }

@@ -4,12 +4,15 @@
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
 const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180, FEW = 2;
 const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
-const GOT_UP = { action: "stand", certainty: 3, arms: false };
+const GOT_UP = { action: "stand", certainty: 3, arms: false, known: true };
 const PLAINLY = { // what whole patterns ask for, and words of a tower that knows them
   ups: [GOT_UP, STANDS],
-  bends: [{ action: "turn", certainty: 3, arms: false }, "turns left"],
-  posed: [{ action: "raise", certainty: 3, arms: true }, "raises both arms"],
+  bends: [{ action: "turn", certainty: 3, arms: false, known: true }, "turns left"],
+  posed: [{ action: "raise", certainty: 3, arms: true, known: true }, "raises both arms"],
+  falls: [{ action: "die", certainty: 3, arms: false, known: true }, "dies"],
 };
+const LIES = ["die", "get-up", "lie-down", "sleep", "pick-up"], CROUCHES = ["squat", "crouch-walk", "crouch"]; // what falls, and who crouches, are taken for
+const UNDEAD = "zombie"; // the action that is somebody
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor", "lie-down", "sleep"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
@@ -21,7 +24,7 @@ const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|p
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
 const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
 const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
-export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, tempo: 1, mirrored: false, unheard: "" });
+export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, once: false, tempo: 1, mirrored: false, unheard: "" });
 
 /** Seconds in which a clause is shown, of those that are asked for: who is slow takes longer, who is fast is done sooner; what lasts is as long as it is asked for. */
 export const lasting = ({ tempo }, seconds) => (seconds <= ONCE ? seconds / tempo : seconds);
@@ -49,6 +52,9 @@ export function betweenBlanks(text, loose) {
 }
 const spans = (text, pattern) => [...text.matchAll(pattern)].map((match) => [match.index, match.index + match[0].length]);
 
+/** Whether a text may begin with an English verb that has somebody before it. */
+const isVerb = (text) => /^\S{3,}s(?=\s|$)/u.test(text);
+
 /** Whether both are understood, as two actions. */
 const differ = (first, second, sure = SURE) =>
   Math.min(first.certainty, second.certainty) > sure && first.action !== second.action;
@@ -73,11 +79,11 @@ export class SentenceReader {
   constructor({ patterns, ...words }, read, strange = () => false) {
     const learned = (name) => read(PLAINLY[name][1]).action === PLAINLY[name][0].action;
     const known = (text) => {
-      const name = Object.keys(PLAINLY).find((each) => this.entire[each].test(text) && learned(each));
+      const { rest: calm } = this.withoutTempo(text);
+      const name = Object.keys(PLAINLY).find((each) => this.says(each, calm));
       const found = name ? PLAINLY[name][0] : read(this.bared(text));
       if (surely(found)) return found;
-      const { rest } = this.withoutTempo(text); // how fast is no part of what is done
-      const paced = rest && rest !== text ? known(rest) : found;
+      const paced = calm && calm !== text ? known(calm) : found; // how fast is no part of what is done
       return surely(paced) ? paced : found;
     };
     Object.assign(this, words, { learned, plainRead: read, read: known, strange });
@@ -86,7 +92,7 @@ export class SentenceReader {
       this.first[name] = new RegExp(pattern, "iu");
       this.each[name] = new RegExp(pattern, "giu");
       this.head[name] = new RegExp(`^(?:${pattern})`, "iu");
-      if (name in PLAINLY) this.entire[name] = new RegExp(`^(?:${pattern})$`, "iu");
+      if (name in PLAINLY || name === "conjunction") this.entire[name] = new RegExp(`^(?:${pattern})$`, "iu");
     }
   }
 
@@ -114,17 +120,37 @@ export class SentenceReader {
       if (this.first.ups.test(first)) real.unshift({ ...plainClause(SITS), seconds: BEFORE });
       else if (first === STANDS && real.length === 2 && this.first.ups.test(real[1].text)) real[0] = { ...real[0], text: SITS }; // "gets up after three seconds"
     }
-    real = real.map((each) => this.inPlainWords(each, real.length === 1));
+    const said = real.at(-1), alone = real.length === 1;
+    real = real.map((each) => this.inPlainWords(each, alone));
+    const final = real.at(-1);
+    if (final.text === SQUATS && said.text !== SQUATS && isPlain(final) && !said.once) real[real.length - 1] = { ...final, held: true }; // who crouches stays there
     for (const [at, clause] of real.entries()) {
       const before = real[at - 1] ?? plainClause(""), last = at === real.length - 1;
       if (at && clause.text === STANDS && clause.seconds === null && !last) {
         real[at] = { ...clause, seconds: RISEN };
         continue;
       }
-      real[at] = this.seated(before, clause);
+      real[at] = this.seated(before, this.walkingBack(before, clause));
       if (at && real[at].seat && real[at] !== clause && isPlain(before) && !before.unheard) real[at - 1] = { ...before, seconds: LOW.includes(this.read(before.text).action) ? RISEN : LAID }; // there is more to come
     }
     return real;
+  }
+
+  /** Whether a text is one of a pattern of PLAINLY, whose words the model understands; falls may be something of its own. */
+  says(name, text) {
+    if (!this.entire[name].test(text) || !this.learned(name)) return false;
+    const own = name === "falls" && surely(this.plainRead(text));
+    return !own || LIES.includes(own);
+  }
+
+  /** Who has turned round and goes back goes ahead. */
+  walkingBack(before, clause) {
+    const said = this.first.returns.exec(clause.text);
+    if (!said || clause.degrees !== null) return clause;
+    const turns = isPlain(before) && before.text && surely(this.read(before.text)) === "turn";
+    if (Math.abs(before.degrees ?? 0) !== ABOUT && !turns) return clause;
+    const text = this.without(clause.text, said, this.returned[bare(plain(said[0]))]);
+    return text && GOING.includes(surely(this.read(text))) ? { ...clause, text: closed(text) } : clause;
   }
 
   /** What the arms do of who sits, kneels or lies: he goes on to, whether he does so already, does both at once, or a word says that he does ("kneeling, he waves"). */
@@ -142,9 +168,10 @@ export class SentenceReader {
 
   /** A clause in words of the tower; a bend that is all there is may be a walk. */
   inPlainWords(clause, alone) {
-    let { text, meanwhile } = clause;
-    if (meanwhile || !alone) text = this.bared(text);
-    if (this.learned("ups")) text = text.replace(this.first.ups, STANDS);
+    let { meanwhile } = clause, text = this.bared(clause.text);
+    if (this.says("ups", text)) text = STANDS;
+    if (this.says("falls", text)) text = PLAINLY.falls[1];
+    if (this.first.crouched.test(text) && this.plainRead(SQUATS).action === "squat" && [null, ...CROUCHES].includes(surely(this.plainRead(text)))) text = SQUATS;
     if (!alone && this.first.bends.test(text) && this.learned("bends") && surely(this.plainRead(text)) !== "turn")
       text = text.replace(this.first.bends, `turns ${this.sideOf(text)}`);
     if (this.entire.posed.test(meanwhile) && this.learned("posed") && surely(this.plainRead(meanwhile)) !== "raise")
@@ -198,10 +225,29 @@ export class SentenceReader {
     return { ...own, tempo: Math.min(Math.max(tempo, least), most) };
   }
 
-  /** A text, without its subject where only then it is sure what it asks for. */
+  /** A text without its subject, where only then it is sure, or known, what it asks for; or where the subject alone asks for something else ("a zombie dies"). */
   bared(text) {
+    const rest = this.withoutSubject(text);
+    if (rest === text) return text;
+    const [own, asked] = [rest, text].map((each) => this.plainRead(each)), someone = this.isSomebody(text);
+    if (!surely(own) || !surely(asked)) return surely(own) && (someone || asked.known === false) ? rest : text;
+    if (own.action === asked.action) return someone && own.known && !asked.known ? rest : text;
+    const moved = [...GOING, "stand"].includes(own.action) && asked.action === UNDEAD; // a way to move
+    return isVerb(rest) && !someone && !moved ? rest : text;
+  }
+
+  /** A text without who does it: a word for a person, or a name behind an article, in English with a word between them, where it is sure what the rest asks for. */
+  withoutSubject(text) {
     const rest = text.replace(this.first.subject, "");
-    return rest !== text && !surely(this.plainRead(text)) && surely(this.plainRead(rest)) ? rest : text;
+    if (rest !== text) return rest;
+    const found = spans(text, BLANKS).slice(1, 3).findIndex(([stop, start], number) =>
+      this.first.named.test(text.slice(0, stop)) && (!number || isVerb(text.slice(start))) && surely(this.plainRead(text.slice(start))));
+    return found < 0 ? text : text.slice(spans(text, BLANKS)[found + 1][1]);
+  }
+
+  /** Whether a text begins with a word for a person, which tells nothing of how he moves. */
+  isSomebody(text) {
+    return this.first.subject.test(text);
   }
 
   /** A sentence as one sample hears it: without what it denies, if one plain clause is left. */
@@ -417,7 +463,22 @@ export class SentenceReader {
     }
     const { parts, passed } = best([...ways.at(-1).values()]);
     const partly = odd.some(Boolean) && parts.some((part) => this.hearing(part).known ?? true);
-    return parts.length > 1 || partly ? { parts, unheard: unmarked(passed.map((i) => each[i]).join(", ")) } : { parts: [text], unheard: "" };
+    if (parts.length > 1 || partly) return { parts, unheard: unmarked(passed.map((i) => each[i]).join(", ")) };
+    const lost = this.lost(text, pieces, each, (i) => asides[i] || more(each[i])), heard = pieces.filter((_, i) => !lost.includes(each[i]));
+    return { parts: [lost.length ? this.trimmed(text.slice(heard[0][0], heard.at(-1)[1])) : text], unheard: unmarked(lost.join(", ")) };
+  }
+
+  /** Pieces beside an "and" that are not kept and of which nothing is heard, where another is known: "gets hit and doubles over". */
+  lost(text, pieces, each, kept) {
+    const read = each.map((piece) => this.hearing(piece));
+    if (pieces.length < 2 || !read.some((found) => surely(found) && found.known)) return [];
+    const joined = pieces.slice(1).map(([start], i) => this.entire.conjunction.test(text.slice(pieces[i][1], start)) && text[start] !== "'");
+    return each.filter((piece, i) => {
+      const behind = i > 0 && joined[i - 1], before = i < joined.length && joined[i];
+      const size = CJK.test(piece[0]) ? [...piece].length / 2 : piece.split(/\s+/u).length;
+      const long = size > 2 || (size > 1 && behind && isVerb(piece));
+      return (behind || before) && long && !kept(i) && !surely(read[i]) && !read[i].known && !this.first.tempo.test(piece);
+    });
   }
 
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */
@@ -609,7 +670,8 @@ export class SentenceReader {
       if (!match) return clause;
       number = Math.trunc(this.value(match.groups.number ?? match.groups.after));
     }
-    const rest = number > 1 ? this.without(clause.text, match) : "";
+    const rest = this.without(clause.text, match);
+    if (number === 1) return { ...clause, once: rest !== "" && !this.first.piece.test(match[0]) };
     if (!rest) return clause;
     return number > this.maxCount ? { ...clause, text: rest, unheard: match[0] } : { ...clause, text: rest, count: number };
   }

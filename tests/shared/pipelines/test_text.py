@@ -785,3 +785,28 @@ def test_arms_last_as_long_as_what_goes_on_lower(loaded: TextToMotion) -> None:
     wrists = [JOINT_INDEX["l_wrist"], JOINT_INDEX["r_wrist"]]
     assert np.isfinite(low.positions()).all() and stands.num_frames > low.num_frames
     assert stands.positions()[-15:, wrists, 1].max() < 1.0  # nobody waves any more
+
+
+@pytest.mark.parametrize("text", ["nods once", "nickt einmal", "点一次头"])
+def test_what_is_done_in_cycles_is_done_once_where_that_is_said(starter: TextToMotion, text: str):
+    sentences = SentenceGenerator(starter)
+    (motion,), (longer,) = (sentences.generate([each], steps=2) for each in (text, "nods"))
+    assert motion.seconds == pytest.approx(1.5, abs=0.1) and longer.seconds == 4.0
+    (waves,) = sentences.generate(["waves once"], steps=2)
+    assert waves.seconds == 4.0
+
+
+@pytest.mark.parametrize("text", ["an npc walks in", "the priest marches", "the pirate walks in"])
+def test_nobody_goes_backwards_for_who_he_is(starter: TextToMotion, text: str):
+    sentences = SentenceGenerator(starter)
+    (motion,) = sentences.generate([text], seconds=3, steps=2)
+    assert measure(motion).forward > 1.0
+    (back,) = sentences.generate(["the priest walks backwards"], seconds=3, steps=2)
+    assert measure(back).forward < -0.5
+
+
+def test_what_is_known_of_a_person_is_known_of_others(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    assert sentences.scope_warnings(["gets up from the floor"]) == [None]
+    assert starter.scope_warnings(["gets up from the floor"]) != [None]
+    assert sentences.scope_warnings(["juggles"]) != [None]

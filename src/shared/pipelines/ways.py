@@ -1,0 +1,134 @@
+"""What of a clause leads the root: its angle, its circles, its metres, the way that it bends.
+
+A way is timed by the gait that the network has when nobody leads it, and keeps its sway.
+"""
+
+import logging
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from ..errors import UserError
+from ..model.diffusion import Sampling
+from ..model.generation.constraint import Constraint
+from ..model.generation.motion_generator import TextToMotion
+from ..motion.features import ROOT_ROW, YAW_RATE
+from ..tensors import torch
+from .clause import GOING, Clause
+from .path import (
+    TURN_REST,
+    DrawnPath,
+    Gait,
+    circled,
+    natural_gait,
+    natural_sway,
+    on_the_spot,
+    time_path,
+    turned,
+)
+from .stream import Passage, stream_features
+from .words import goes_round, side_of
+
+SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
+CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
+TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
+
+log = logging.getLogger(__name__)
+
+
+class Ways:
+    """The ways that a model's clauses lead.
+
+    Args:
+        generator: the model.
+        nearest: the action that a text asks for.
+    """
+
+    def __init__(self, generator: TextToMotion, nearest: Callable[[str], str | None]) -> None:
+        self.generator, self.nearest, self.fps = generator, nearest, generator.card.fps
+        self._bent, self._gaits = dict[str, float](), dict[tuple[str, Sampling, str | None], Gait]()
+
+    def gait(self, text: str, sampling: Sampling, tag: str | None = None) -> Gait:
+        if (key := (text, sampling, tag)) not in self._gaits:
+            self._gaits[key] = natural_gait(self.generator, Passage(text, 1, tag), sampling)
+        return self._gaits[key]
+
+    def ahead(self, text: str, rest: str) -> str:
+        """The text, or the rest of it, where only that goes ahead."""
+        for each in (text, rest):
+            gait = self.gait(each, Sampling())
+            if not gait.stands and abs(gait.facing) < math.pi / 2:
+                return each
+        return text
+
+    def bend(self, text: str) -> float:
+        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
+        what the network makes of it turns, and does not stop turning (experiments, section 44)."""
+        if self.nearest(text) not in GOING or (side_of(text) == "both" and not goes_round(text)):
+            return 0.0
+        if text not in self._bent:
+            turning = self.gait(text, Sampling()).turning
+            left = turning > 0 if (side := side_of(text)) == "both" else side == "left"
+            angle = 360.0 if goes_round(text) else 0.0 if abs(turning) < TURNING else CORNER
+            self._bent[text] = angle if left else -angle
+        return self._bent[text]
+
+    def turn(self, clause: Clause, seconds: float, sampling: Sampling) -> Constraint:
+        """By the angle that is named; round a corner or in a circle; else in full circles, as many
+        as are named or as fill the seconds, to the side that is named or that the seed says."""
+        fps, turns = self.fps, self.nearest(clause.text) == "turn"
+        if clause.degrees is not None:
+            given = turned(clause.degrees, fps, clause.seconds)
+            return on_the_spot(given) if turns else given
+        side = side_of(clause.text)
+        if turns and side != "both":
+            angle = CORNER * clause.count * (1 if side == "left" else -1)
+            rest = max((seconds - TURN_SECONDS) / 2, TURN_REST)
+            time = (clause.seconds,) if clause.count > 1 else (seconds, rest)
+            return on_the_spot(turned(angle, fps, *time))
+        if bend := self.bend(clause.text):
+            if clause.seconds is None:
+                seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
+            if abs(bend) == CORNER:
+                rest = max((seconds - CORNER_SECONDS) / 2, TURN_REST)
+                given = turned(bend, fps, seconds, rest)
+            else:
+                given = circled(bend, fps, seconds)
+            sway = self.sway(Passage(clause.text, len(given)), sampling)
+            given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
+            return given
+        circles, around = clause.count, 360.0 / SPIN_SPEED
+        if circles == 1:
+            circles = max(round((seconds - 2 * TURN_REST) / around), 1)
+        elif clause.seconds is None:
+            seconds = circles * around + 2 * TURN_REST
+        left = sampling.seed % 2 == 0 if side == "both" else side == "left"
+        return turned(360.0 * (circles if left else -circles), fps, seconds)
+
+    def led(
+        self, passage: Passage, clause: Clause, sampling: Sampling, *, timed: bool
+    ) -> Constraint:
+        """So many metres, at the pace and in the direction that are the clause's own; in its
+        seconds, unless nobody goes so fast and it is not `timed`."""
+        if not clause.metres:
+            return on_the_spot(Constraint.free(passage.frames))
+        speed, facing, *_ = self.gait(passage.text, sampling, passage.tag)
+        ahead = np.array([[0.0, 0.0], [0.0, clause.metres]])
+        fps, seconds = self.fps, clause.seconds
+        last = None if seconds is None else max(seconds * fps - 1, 1) / fps
+        pace = partial(time_path, DrawnPath(ahead), fps=fps, speed=speed, facing=facing)
+        try:
+            path = pace(seconds=last)
+        except UserError as error:
+            if timed:
+                raise UserError(f"{passage.text!r}: {error}") from None
+            log.warning("%r: %s; until then it takes its own time", passage.text, error)
+            path = pace(seconds=None)
+        return path.swaying(self.sway(replace(passage, frames=len(path)), sampling)).constraint()
+
+    def sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
+        free = [*stream_features(self.generator, [passage], sampling)]
+        return natural_sway(torch.cat(free), self.fps)
