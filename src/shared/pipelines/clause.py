@@ -284,6 +284,12 @@ def without_subject(text: str, read: Read) -> str:
     return text
 
 
+def is_told_of(text: str) -> bool:
+    """Whether a text says in English of somebody behind an article what he does."""
+    cuts = blanks(text)[1:3]
+    return any(all_words().named.match(text[:at]) and is_verb(text[to:]) for at, to in cuts)
+
+
 def is_verb(text: str) -> bool:
     """Whether a text may begin with an English verb that has somebody before it."""
     first, *_ = text.split()

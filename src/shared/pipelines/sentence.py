@@ -24,6 +24,7 @@ from .clause import (
     blanks,
     closed,
     in_tempo,
+    is_told_of,
     is_verb,
     measured,
     place_kept,
@@ -436,11 +437,14 @@ def _lost(
     for at, piece in enumerate(each):
         reading = read(measured(piece).text)
         known |= reading.surely is not None and reading.known
-        behind, before = at > 0 and joined[at - 1], at < len(joined) and joined[at]
-        size = len(piece) / 2 if re.match(CJK_SIGN, piece) else len(piece.split())
-        long = size > 2 or (size > 1 and behind and is_verb(piece))
+        if at > 0 and joined[at - 1]:  # with nobody or nothing else that does it
+            size = len(piece) / 2 if re.match(CJK_SIGN, piece) else len(piece.split())
+            told = size > 2 or (size > 1 and is_verb(piece))
+            told = told and not words.another.match(piece)
+        else:  # elsewhere it may be a scene
+            told = at < len(joined) and joined[at] and is_told_of(piece)
         heard = reading.surely is not None or reading.known or words.tempo.search(piece)
-        if (behind or before) and long and not (kept[at] or heard):
+        if told and not (kept[at] or heard):
             lost.append(piece)
     return lost if known else []
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property, partial
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 
 from ..device import idle_threads
 from ..errors import UserError
@@ -44,11 +44,11 @@ from ..tensors import Tensor, torch
 from .clause import GOING, REPEATED, Clause, Reading, without_subject
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
-from .sentence import clauses, whole
+from .sentence import HALT, RISEN, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
-from .words import is_somebody, says_number, says_often, side_of, turns_head, unlearned
+from .words import STANDS, is_somebody, says_number, says_often, side_of, turns_head, unlearned
 
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
@@ -371,7 +371,29 @@ class SentenceGenerator:
     def _one(
         self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None
     ) -> Motion:
-        parts = self.clauses(text)
+        parts, rest = self.clauses(text), (text, seconds, tag, sampling, lock)
+        motion, missed = self._made(parts, *rest)
+        for stop in (RISEN, HALT):  # who stops before it begins as who is at rest does
+            stands = [at for at in missed if self._nearest(parts[at - 1].text) != "stand"]
+            if not stands:
+                break
+            halt = Clause(STANDS, seconds=stop)
+            slow = [[halt, part] if at in stands else [part] for at, part in enumerate(parts)]
+            again, still = self._made([*chain(*slow)], *rest)
+            if len(still) < len(missed):
+                return again
+        return motion
+
+    def _made(
+        self,
+        parts: Sequence[Clause],
+        text: str,
+        seconds: float,
+        tag: str | None,
+        sampling: Sampling,
+        lock: bool | None,
+    ) -> tuple[Motion, list[int]]:
+        """The motion of clauses, and which gestures behind others do not show in it."""
         once = min(seconds, REPEATED[1]) if len(parts) > 1 else seconds  # each is done once
         times = [once if self._is_single(part) else seconds for part in parts]
         stretches = [self._stretch(p, s, tag, sampling) for p, s in zip(parts, times, strict=True)]
@@ -381,8 +403,15 @@ class SentenceGenerator:
         if steps:
             more = round(TO_LAND * self.card.fps + 0.15 * passage.frames)
             stretches[-1] = replace(passage, frames=passage.frames + more), None
-        motion = self._motion(parts, stretches, text, sampling, lock)
-        return until_landed(motion, steps, stretches[-1][0].frames, passage.frames)
+        motion, spans = self._motion(parts, stretches, text, sampling, lock)
+        gestures = {*(self.scope.gestures if self.scope else ())} - {"stand"}
+        missed = [
+            at for at, (part, (_, known)) in enumerate(zip(parts, stretches, strict=True))
+            if at and known is None and not (part.meanwhile or part.seat)
+            and self._nearest(part.text) in gestures
+            and not self._does(part.text, motion.frames(*spans[at]))
+        ]  # fmt: skip
+        return until_landed(motion, steps, stretches[-1][0].frames, passage.frames), missed
 
     def timeline(
         self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
@@ -407,7 +436,8 @@ class SentenceGenerator:
                 exactly = stop - start if timeline.timed else None
                 stretches.append(self._stretch(part, frames / fps, tag, sampling, exactly))
             parts += own
-        return self._motion(parts, stretches, timeline.text, sampling, foot_lock, timeline.parts)
+        rest = timeline.text, sampling, foot_lock, timeline.parts
+        return self._motion(parts, stretches, *rest)[0]
 
     def loop(
         self, timeline: Timeline, sampling: Sampling, *, foot_lock: bool | None = None
@@ -433,8 +463,9 @@ class SentenceGenerator:
         sampling: Sampling,
         foot_lock: bool | None,
         limbs: Sequence[Part] = (),
-    ) -> Motion:
-        """What clauses became, one after the other, and what single limbs do meanwhile."""
+    ) -> tuple[Motion, list[tuple[int, int]]]:
+        """What clauses became, one after the other, and what single limbs do meanwhile; and which
+        frames are those of each."""
         starts = [0, *accumulate(passage.frames for passage, _ in stretches)]
         given, fps, led = Constraint.free(starts[-1]), self.card.fps, False
         for part, start, (passage, constraint) in zip(parts, starts, stretches, strict=False):
@@ -489,7 +520,7 @@ class SentenceGenerator:
                 # nothing but arms that hang in between tells one wave from the next
                 joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
                 motion = rest_to_rest(motion, joins)
-        return replace(motion, text=text)
+        return replace(motion, text=text), spans
 
     def _window(self) -> int:
         """Frames of a window: no more than the model has seen, where two overlaps fit in that."""

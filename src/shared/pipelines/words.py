@@ -240,6 +240,7 @@ class Words:
         self.crouched = Rare(rf"^{someone}{_any(all_of('crouches'))}\W*$", all_of("crouches"))
         self.falls = Rare(rf"^{someone}{_any(all_of('falls'))}\W*$", all_of("falls"))
         whose = _any(all_of("own"))
+        self.another = re.compile(rf"^{whose}", re.I)  # who or what does it, behind an "and"
         self.named = re.compile(rf"^{whose}\s*(?:{_LETTER}+\s+)?{_LETTER}+$", re.I)  # somebody
         person = rf"(?:{whose}\s+(?:{_LETTER}+\s+)?)?{_any(all_of('someone'))}"
         subject = rf"^(?:{person}|{_any(all_of('who'))})\s*(?=\S)"

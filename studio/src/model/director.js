@@ -8,7 +8,7 @@ import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, isFar, isPlain, lasting, plain, plainClause, SentenceReader, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause, RISEN, SentenceReader, STANDS, surely, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
@@ -134,7 +134,7 @@ export class Director {
       }
       parts.push(...own);
     }
-    return this.performed(parts, stretches, blocks.map(({ text }) => text).join(", then "), seed, options);
+    return (await this.performed(parts, stretches, blocks.map(({ text }) => text).join(", then "), seed, options)).motion;
   }
 
   passages(blocks) {
@@ -182,6 +182,18 @@ export class Director {
   }
 
   async clausesOf(prompt, parts, seconds, seed, options) {
+    const { motion, missed } = await this.made(prompt, parts, seconds, seed, options);
+    for (const stop of [RISEN, HALT]) { // who stops before it begins as who is at rest does
+      const stands = missed.filter((at) => this.nearest(parts[at - 1].text) !== "stand"), halt = { ...plainClause(STANDS), seconds: stop };
+      if (!stands.length) break;
+      const again = await this.made(prompt, parts.flatMap((part, at) => (stands.includes(at) ? [halt, part] : [part])), seconds, seed, options);
+      if (again.missed.length < missed.length) return again.motion;
+    }
+    return motion;
+  }
+
+  /** The motion of clauses, and which gestures behind others do not show in it. */
+  async made(prompt, parts, seconds, seed, options) {
     const stretches = [];
     for (const part of parts) {
       const once = parts.length > 1 && this.isSingle(part); // of several, each is done once
@@ -190,11 +202,15 @@ export class Director {
     const { passage, given } = stretches.at(-1), { text, steps, seconds: named } = parts.at(-1), action = this.nearest(text);
     const feet = !given && named === null && STEPPING.includes(action) ? round(steps ?? 0) * (action === "side-step" ? 2 : 1) : 0;
     if (feet) stretches[stretches.length - 1] = { passage: { ...passage, frames: passage.frames + round(TO_LAND * FPS + 0.15 * passage.frames) } };
-    const motion = await this.performed(parts, stretches, prompt, seed, options);
-    return feet ? untilLanded(motion, feet, stretches.at(-1).passage.frames, passage.frames) : motion;
+    const { motion, spans } = await this.performed(parts, stretches, prompt, seed, options);
+    const missed = [...parts.keys()].filter((at) => {
+      const { text: said, meanwhile, seat } = parts[at], does = this.nearest(said);
+      return at && !stretches[at].given && !meanwhile && !seat && does !== "stand" && this.scope.meta.gestures.includes(does) && !this.does(said, framesOfMotion(motion, ...spans[at]));
+    });
+    return { motion: feet ? untilLanded(motion, feet, stretches.at(-1).passage.frames, passage.frames) : motion, missed };
   }
 
-  /** What clauses became, one after the other. */
+  /** What clauses became, one after the other, and which frames are those of each. */
   async performed(parts, stretches, text, seed, options) {
     const passages = stretches.map(({ passage }) => passage);
     const given = freeConstraint(passages.reduce((sum, { frames }) => sum + frames, 0)), starts = [];
@@ -247,7 +263,7 @@ export class Director {
       else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS))
         rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => start + Math.floor(((stop - start) * (k + 1)) / count)));
     }
-    return { ...rested, text };
+    return { motion: { ...rested, text }, spans };
   }
 
   /** Where somebody gets up, the pelvis does so as fast as people do; whether anybody does. */

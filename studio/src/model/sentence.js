@@ -2,8 +2,9 @@
 // with the model): clauses { text, count, degrees, metres, seconds, steps, meanwhile, side, held, unheard }.
 
 const EDGES = " \t,;.!?:()/+&|。、，！？：；（）「」…—–·-";
-const ARROW = " → ", STANDS = "stands still", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180, FEW = 2;
-const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, HALT = 2.5, ARRIVES = 1.5;
+export const STANDS = "stands still", HALT = 2.5, RISEN = 1.5;
+const ARROW = " → ", SITS = "sits", SQUATS = "squats down", BEFORE = 0.8, ABOUT = 180, FEW = 2;
+const HELD = "\u23f8", MARK = /\u23f8(?:([\d.]+)\u23f8)?/u, ARRIVES = 1.5;
 const GOT_UP = { action: "stand", certainty: 3, arms: false, known: true };
 const PLAINLY = { // what whole patterns ask for, and words of a tower that knows them
   ups: [GOT_UP, STANDS],
@@ -16,7 +17,7 @@ const UNDEAD = "zombie"; // the action that is somebody
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor", "lie-down", "sleep"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, RISEN = 1.5, LAID = 3, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, LAID = 3, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
@@ -474,11 +475,17 @@ export class SentenceReader {
     if (pieces.length < 2 || !read.some((found) => surely(found) && found.known)) return [];
     const joined = pieces.slice(1).map(([start], i) => this.entire.conjunction.test(text.slice(pieces[i][1], start)) && text[start] !== "'");
     return each.filter((piece, i) => {
-      const behind = i > 0 && joined[i - 1], before = i < joined.length && joined[i];
       const size = CJK.test(piece[0]) ? [...piece].length / 2 : piece.split(/\s+/u).length;
-      const long = size > 2 || (size > 1 && behind && isVerb(piece));
-      return (behind || before) && long && !kept(i) && !surely(read[i]) && !read[i].known && !this.first.tempo.test(piece);
+      const told = i > 0 && joined[i - 1] // with nobody or nothing else that does it
+        ? (size > 2 || (size > 1 && isVerb(piece))) && !this.first.another.test(piece)
+        : joined[i] && this.isToldOf(piece); // elsewhere it may be a scene
+      return told && !kept(i) && !surely(read[i]) && !read[i].known && !this.first.tempo.test(piece);
     });
+  }
+
+  /** Whether a text says in English of somebody behind an article what he does. */
+  isToldOf(text) {
+    return spans(text, BLANKS).slice(1, 3).some(([at, to]) => this.first.named.test(text.slice(0, at)) && isVerb(text.slice(to)));
   }
 
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */

@@ -810,3 +810,15 @@ def test_what_is_known_of_a_person_is_known_of_others(starter: TextToMotion):
     assert sentences.scope_warnings(["gets up from the floor"]) == [None]
     assert starter.scope_warnings(["gets up from the floor"]) != [None]
     assert sentences.scope_warnings(["juggles"]) != [None]
+
+
+@pytest.mark.parametrize("text", ["walks forward, then kicks", "runs, then kicks the ball"])
+def test_who_does_not_show_a_gesture_behind_another_stops_before_it(
+    starter: TextToMotion, text: str
+):
+    sentences = SentenceGenerator(starter)
+    [motion] = sentences.generate([text], seed=0)
+    assert measure(motion.frames(motion.num_frames - 100, motion.num_frames)).kicks == (0, 1)
+    assert motion.seconds in (8.5, 9.5)
+    [whole] = sentences.generate(["turns left, then kicks"], seed=0)  # needs none
+    assert whole.seconds < 8.0

@@ -127,7 +127,8 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
      "walks, then drinks with her left hand", "trinkt mit der linken Hand und winkt dann",
      "crawls, then dies", "sits and drinks with the left hand", "hops forward on the left foot",
      "walks while saluting with the left hand", "crawls, then lies down while waving",
-     "the priest marches", "nods once", "turns around and walks back", "a zombie dies", "crouch"],
+     "the priest marches", "nods once", "turns around and walks back", "a zombie dies", "crouch",
+     "walks forward, then kicks", "runs, then kicks", "punches, then kicks"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
