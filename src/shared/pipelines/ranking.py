@@ -20,7 +20,8 @@ the smoothest jump does not jump. A motion with a value that is not finite fails
 Letters: N candidates, T frames, J points, K joints or rows, D width of the shared space, M beats.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,7 +33,7 @@ from ..config_schema import Config
 from ..errors import UserError
 from ..metrics.physical import contact_slide, mean_jerk, penetration
 from ..metrics.rhythm import Alignment, alignment, chance_alignment, motion_beats
-from ..metrics.sanity import Bands, SanityChecker, mean_margin, share
+from ..metrics.sanity import Bands, CheckResult, SanityChecker
 from ..model.checkpoint import list_models, read_card, resolve_model
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import encode_features
@@ -177,6 +178,53 @@ DEPTH = (0.5, 5.0)  # cm below the floor; real feet are never deeper than 0.1
 JERK = (400.0, 1200.0)  # m/s³
 SCALE = 0.5  # metres between joints that count as far apart
 
+
+# ---------------------------------------------------------------- how far within its bounds
+# The margin of a failed check is 0. Of a passed one:
+# - a figure with a band of real motions: 1 inside the band (5th to 95th percentile), falling with
+#   the logarithm to 0 at the limits (the band with its slack);
+# - jerk and roughness: 1 up to the 95th percentile of real motions, falling likewise to 0 at the
+#   bound. They must not go on rising below, or the tamest motion is the best;
+# - a figure below a bound of which no band is known, or that is 0 by right: 1 - value / bound;
+# - anything else: 1.
+LIVELY = ("jerk", "roughness")
+BELOW = (*LIVELY, "velocity_coherence", "accel_coherence")
+
+
+def margin(result: CheckResult) -> float:
+    """How far within its bounds a check stays, in [0, 1]: rules above."""
+    if not result.passed:
+        return 0.0
+    value, bound = result.value, result.threshold
+    if result.name in BELOW:
+        assert not isinstance(value, tuple) and not isinstance(bound, tuple)
+        if result.band and result.name in LIVELY:
+            return share(value, bound, result.band[1])
+        return 1.0 - value / bound
+    if result.name.startswith("band_"):
+        assert not isinstance(value, tuple) and isinstance(bound, tuple) and result.band
+        side = 0 if value < result.band[0] else 1
+        return share(value, bound[side], result.band[side])
+    return 1.0
+
+
+def mean_margin(results: Iterable[CheckResult]) -> float:
+    """Mean margin of one motion's checks, at least one."""
+    margins = [margin(result) for result in results]
+    return sum(margins) / len(margins)
+
+
+def share(value: float, limit: float, edge: float) -> float:
+    """1 at the edge of what real motion has and on its far side, 0 at the limit and beyond, falling
+    with the logarithm between them. Limit and edge are above 0; any value will do."""
+    if (value - edge) * (limit - edge) <= 0:
+        return 1.0
+    if (value - limit) * (limit - edge) >= 0:
+        return 0.0
+    return math.log(value / limit) / math.log(edge / limit)
+
+
+# ---------------------------------------------------------------- judges
 
 Tower = Callable[[Tensor], Tensor]  # raw features [N,T,K,6] -> unit vectors [N,D]
 

@@ -5,16 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from src.shared.metrics.sanity import (
-    Band,
-    Bands,
-    CheckResult,
-    SanityChecker,
-    margin,
-    mean_margin,
-    share,
-)
+from src.shared.metrics.sanity import Band, Bands, CheckResult, SanityChecker
 from src.shared.motion.trajectory import MotionTrajectory
+from src.shared.pipelines.ranking import margin, mean_margin, share
 
 
 def band_check(value: float) -> CheckResult:
