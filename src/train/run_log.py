@@ -22,7 +22,7 @@ from rich.progress import (
 )
 
 from ..shared.errors import UserError
-from ..shared.evaluation.tables import legend, new_figure, save_figure
+from ..shared.formats.preview.drawing import legend, new_figure, save_figure
 from ..shared.io.files import atomic_write, parse_json
 
 VALIDATION = "validation/"  # begins the names of figures that are not of training

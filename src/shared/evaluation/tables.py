@@ -12,13 +12,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from ..errors import UserError
-from ..io.files import atomic_write
 from .stats import Estimate
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from rich.console import Console
 
 WORDS = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))
@@ -279,35 +275,3 @@ def draw(lines: Iterable[str], parts: Iterable[Table], console: "Console") -> No
         for row in table.rows:
             drawn.add_row(*row)
         console.print(drawn)
-
-
-# ---------------------------------------------------------------- pictures
-# matplotlib is imported when one is drawn; no window is opened.
-
-
-def legend(axes: "Axes") -> None:
-    """In a line above the panel, right of its title."""
-    axes.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), ncols=4, fontsize="small", frameon=False,
-        borderaxespad=0,
-    )  # fmt: skip
-
-
-def new_figure(width: float, height: float) -> "Figure":
-    """An empty figure of so many inches. Raises UserError: matplotlib is missing."""
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise UserError(
-            "plots need matplotlib, which is not installed; run `pip install matplotlib`"
-        ) from error
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def save_figure(figure: "Figure", path: Path) -> Path:
-    """Write .png, .pdf or .svg, whole or not at all.
-    Raises UserError: the file cannot be written."""
-    ending = path.suffix.removeprefix(".").lower()
-    with atomic_write(path) as temporary:
-        figure.savefig(temporary, format=ending or "png", dpi=100)
-    return path

@@ -11,11 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from ...formats.preview.drawing import new_figure, save_figure
 from ...metrics import rhythm
 from ...motion.trajectory import FPS, MotionTrajectory
 from ..samples import Dance
 from ..stats import FEW, Estimate, bootstrap_columns, bootstrap_mean
-from ..tables import Grid, GridRow, new_figure, save_figure
+from ..tables import Grid, GridRow
 from .songs import Piece
 
 HELD_AGAINST = ("chance", "another song", "half a beat later")

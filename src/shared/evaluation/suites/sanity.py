@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError
+from ...formats.preview.drawing import legend, new_figure, save_figure
 from ...metrics.sanity import (
     MEASURES,
     SEVEN,
@@ -33,17 +34,7 @@ from ...pipelines.song_sampler import SongSampling
 from ..engine import Progress
 from ..samples import untrained_audio_model
 from ..stats import success_rate
-from ..tables import (
-    Column,
-    Grid,
-    GridRow,
-    Report,
-    legend,
-    new_figure,
-    number,
-    report_data,
-    save_figure,
-)
+from ..tables import Column, Grid, GridRow, Report, number, report_data
 from .songs import TEMPI, conditions_of_songs, open_split, phrases
 
 PASS_SHARE = 0.95  # of samples, all seven checks and the whole suite

@@ -1,18 +1,23 @@
-"""What Pillow pictures share: colours, fonts, the floor seen from above, and shaded triangles.
+"""What pictures share: colours, fonts, the floor seen from above, shaded triangles, and plots.
 
-Pictures are drawn at twice their size and shrunk, which smooths every edge. The camera is
+Pillow's are drawn at twice their size and shrunk, which smooths every edge. The camera is
 orthographic; triangles are drawn from back to front. Legend: T frames, V vertices, F triangles."""
 
 import logging
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ...errors import UserError
 from ...io.files import atomic_write
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 OVERSAMPLE = 2
 BACKGROUND = (246, 247, 249)
@@ -190,3 +195,35 @@ def shade(normals: np.ndarray, colours: np.ndarray, camera: Camera) -> np.ndarra
     shine = np.clip(normals @ halfway, 0.0, 1.0) ** 30
     level = (0.40 + 0.70 * diffuse) * (0.62 + 0.38 * np.minimum(1.0, facing * 2.0))
     return np.asarray(np.clip(colours * level[:, None] + 0.14 * shine[:, None], 0.0, 1.0))
+
+
+# ---------------------------------------------------------------- plots
+# matplotlib is imported when one is drawn; no window is opened.
+
+
+def legend(axes: "Axes") -> None:
+    """In a line above the panel, right of its title."""
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1, 1), ncols=4, fontsize="small", frameon=False,
+        borderaxespad=0,
+    )  # fmt: skip
+
+
+def new_figure(width: float, height: float) -> "Figure":
+    """An empty figure of so many inches. Raises UserError: matplotlib is missing."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise UserError(
+            "plots need matplotlib, which is not installed; run `pip install matplotlib`"
+        ) from error
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save_figure(figure: "Figure", path: Path) -> Path:
+    """Write .png, .pdf or .svg, whole or not at all.
+    Raises UserError: the file cannot be written."""
+    ending = path.suffix.removeprefix(".").lower()
+    with atomic_write(path) as temporary:
+        figure.savefig(temporary, format=ending or "png", dpi=100)
+    return path
