@@ -12,7 +12,7 @@ Letters: N motions, T frames, K joints, F features, C classes.
 
 import math
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import cycle, islice, pairwise
@@ -364,11 +364,6 @@ def _captioned(data: PreparedData) -> list[ClipRecord]:
 ANGLE_WITHIN = 20.0  # degrees
 
 
-def faster(fast: Measurements, slow: Measurements) -> bool:
-    """Whether one motion travels at least a quarter faster than another."""
-    return credible(fast) and credible(slow) and fast.speed > 1.25 * slow.speed > 0.0
-
-
 def _names(labels: dict[str, str]) -> list[str]:
     """Checks that a label set calls for."""
     action, direction = labels.get("action", ""), labels.get("direction", "")
@@ -413,43 +408,3 @@ def check(labels: dict[str, str], motion: Motion | Measurements) -> dict[str, bo
         off = abs(math.degrees(m.yaw)) - float(labels["angle"])
         answers["angle"] = credible(m) and abs(off) < ANGLE_WITHIN
     return answers
-
-
-@dataclass(frozen=True)
-class ControlTask:
-    """One thing a user may ask for, with the labels its prompts are rendered from."""
-
-    name: str
-    labels: tuple[dict[str, str], ...]  # label sets that all ask for it; use them in turn
-    check: Check  # answers for one motion
-    # label set of the motion to compare with, None if none is needed
-    versus: dict[str, str] | None = None
-    # answers for the pair (motion, comparison) where `versus` is given
-    compare: Callable[[Measurements, Measurements], bool] | None = None
-
-    def passes(self, motion: Measurements, other: Measurements | None = None) -> bool:
-        """Whether the motion (against `other` where the task compares two) does it.
-        Raises ValueError: the task compares two motions and `other` is missing."""
-        if self.compare is None:
-            return self.check(motion)
-        if other is None:
-            raise ValueError(f"task {self.name!r} compares two motions: give the one of `versus`")
-        return self.compare(motion, other)
-
-
-_WALK = {"action": "walk", "direction": "forward"}
-_RUN = {"action": "run", "direction": "forward"}
-_HAND = {side: ({"action": "wave", "side": side}, {"action": "raise", "side": side})
-         for side in ("left", "right")}  # fmt: skip
-_TURN = {side: ({**_WALK, "turn": side}, {"action": "turn", "direction": side, "angle": "90"})
-         for side in ("left", "right")}  # fmt: skip
-CONTROL_TASKS: tuple[ControlTask, ...] = (
-    ControlTask("forward", (_WALK,), CHECKS["forward"]),
-    ControlTask("backward", ({**_WALK, "direction": "backward"},), CHECKS["backward"]),
-    ControlTask("left hand", _HAND["left"], CHECKS["left-hand"]),
-    ControlTask("right hand", _HAND["right"], CHECKS["right-hand"]),
-    ControlTask("run faster than walk", (_RUN,), CHECKS["run"], versus=_WALK, compare=faster),
-    ControlTask("turn left", _TURN["left"], CHECKS["turn-left"]),
-    ControlTask("turn right", _TURN["right"], CHECKS["turn-right"]),
-)
-"""The controllability that shipped weights are held to."""

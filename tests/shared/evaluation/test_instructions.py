@@ -14,12 +14,11 @@ from src.shared.data.synthetic.clips import (
 )
 from src.shared.evaluation.actions import (
     CHECKS,
-    CONTROL_TASKS,
     check,
     credible,
-    faster,
     speed_class,
 )
+from src.shared.evaluation.suites.control import CONTROL_TASKS, faster, rate
 from src.shared.metrics.measurements import count_peaks, measure, smooth
 from src.shared.motion.motion import Motion
 from tests.shared.motion.mirrored import mirror_motion
@@ -114,7 +113,7 @@ def test_random_motion_fails_every_check(seed: int, smoothing: int) -> None:
     assert not any(ask(m) for ask in CHECKS.values())
     for labels in COMBINATIONS:
         assert not any(check(labels, m).values())
-    assert not any(task.passes(m, m) for task in CONTROL_TASKS)
+    assert not any(rate(task, [m], [m]).value for task in CONTROL_TASKS)
 
 
 def test_faster_compares_pairs() -> None:
@@ -137,13 +136,8 @@ def test_tasks_ask_for_known_labels() -> None:
             full = next(c for c in COMBINATIONS if labels.items() <= c.items())
             other = measure(_clip(3, **task.versus, speed="normal")) if task.versus else None
             if labels is not task.versus:
-                assert task.passes(measure(_clip(3, **full)), other), (task.name, labels)
-
-
-def test_comparing_task_needs_the_other_motion() -> None:
-    task = next(task for task in CONTROL_TASKS if task.versus)
-    with pytest.raises(ValueError, match="compares two motions"):
-        task.passes(measure(_clip(action="stand")))
+                found = rate(task, [measure(_clip(3, **full))], [other] if other else [])
+                assert found.value == 1, (task.name, labels)
 
 
 def test_count_peaks_needs_a_valley_between() -> None:

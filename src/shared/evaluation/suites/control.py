@@ -9,13 +9,12 @@ Letters: N motions of one cell.
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from itertools import chain, cycle, islice, product, repeat
+from itertools import chain, cycle, islice, product
 
 from pydantic import TypeAdapter
 
 from ...data.captions.book import CaptionBook
-from ...metrics.measurements import Measurements, measure
-from ..actions import CONTROL_TASKS, ControlTask
+from ...metrics.measurements import CHECKS, Check, Measurements, credible, measure
 from ..manifest import Part
 from ..samples import Clips, Sampler, frozen_pose
 from ..stats import NOTHING, Estimate, share_of, success_rate
@@ -27,6 +26,41 @@ WORDINGS = {"templates": "tmpl", "paraphrases": "para"}  # with their headings
 FROM_JSON = TypeAdapter(list[Measurements])
 NUM_FRAMES = 120  # of each motion
 NUM_TEMPLATES = 12  # captions of one label set and language that the seeds go round
+
+
+def faster(fast: Measurements, slow: Measurements) -> bool:
+    """Whether one motion travels at least a quarter faster than another."""
+    return credible(fast) and credible(slow) and fast.speed > 1.25 * slow.speed > 0.0
+
+
+@dataclass(frozen=True)
+class ControlTask:
+    """One thing a user may ask for, with the labels its prompts are rendered from."""
+
+    name: str
+    labels: tuple[Labels, ...]  # label sets that all ask for it; use them in turn
+    check: Check  # answers for one motion
+    versus: Labels | None = None  # of the motion to compare with, None if none is needed
+    # answers for the pair (motion, comparison) where `versus` is given
+    compare: Callable[[Measurements, Measurements], bool] | None = None
+
+
+_WALK = {"action": "walk", "direction": "forward"}
+_RUN = {"action": "run", "direction": "forward"}
+_HAND = {side: ({"action": "wave", "side": side}, {"action": "raise", "side": side})
+         for side in ("left", "right")}  # fmt: skip
+_TURN = {side: ({**_WALK, "turn": side}, {"action": "turn", "direction": side, "angle": "90"})
+         for side in ("left", "right")}  # fmt: skip
+CONTROL_TASKS: tuple[ControlTask, ...] = (
+    ControlTask("forward", (_WALK,), CHECKS["forward"]),
+    ControlTask("backward", ({**_WALK, "direction": "backward"},), CHECKS["backward"]),
+    ControlTask("left hand", _HAND["left"], CHECKS["left-hand"]),
+    ControlTask("right hand", _HAND["right"], CHECKS["right-hand"]),
+    ControlTask("run faster than walk", (_RUN,), CHECKS["run"], versus=_WALK, compare=faster),
+    ControlTask("turn left", _TURN["left"], CHECKS["turn-left"]),
+    ControlTask("turn right", _TURN["right"], CHECKS["turn-right"]),
+)
+"""The controllability that shipped weights are held to."""
 
 
 @dataclass
@@ -100,8 +134,9 @@ def rate(
     task: ControlTask, motions: Sequence[Measurements], others: Sequence[Measurements]
 ) -> Estimate:
     """Share of motions that do what the task asks, against `others` row by row if it compares."""
-    pairs = zip(motions, others if task.compare else repeat(None), strict=False)
-    return share_of([task.passes(*pair) for pair in pairs])
+    if task.compare is None:
+        return share_of([task.check(motion) for motion in motions])
+    return share_of([task.compare(*pair) for pair in zip(motions, others, strict=False)])
 
 
 def control_grid(
