@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from scipy.spatial.distance import cdist
 from scipy.special import gammaln
 from scipy.stats import rankdata
 
@@ -71,12 +72,6 @@ def rank_of(distances: np.ndarray, column: int) -> np.ndarray:
     return np.asarray(rankdata(distances, axis=1)[:, column] - 1)
 
 
-def pair_distances(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
-    """Euclidean distances [M, M] of texts [M, D] (rows) to motions [M, D] (columns)."""
-    difference = text[:, None].astype(np.float64) - motion[None].astype(np.float64)
-    return np.asarray(np.sqrt((difference**2).sum(-1)))
-
-
 def guo_retrieval(
     text: np.ndarray, motion: np.ndarray, equal_by: Sequence[Sequence[object]], *, seed: int = 0
 ) -> np.ndarray:
@@ -114,7 +109,7 @@ def in_batches(
     columns.append(np.arange(len(text)))
     for rows in batches(len(text), BATCH, seed):
         relevant = np.any([ids[rows][:, None] == ids[rows][None] for ids in columns], axis=0)
-        ranks = best_ranks(pair_distances(text[rows], motion[rows]), relevant)
+        ranks = best_ranks(cdist(text[rows], motion[rows]), relevant)
         yield rows, np.stack([ranks.hits(k) for k in TOP])
 
 
