@@ -159,8 +159,9 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
         part = parts.once(name, partial(_as_part, make))
         tables += [Grid.from_dict(grid) for grid in part["grids"]]
     drawn: list[dict[str, Any]] = []
-    if suite.pictures is not None:
-        drawn = parts.once("pictures", partial(_drawn, suite.pictures, parts.folder))["pictures"]
+    if suite.pictures is not None and parts.folder is not None:
+        draw = partial(suite.pictures, parts.folder)
+        drawn = parts.once("pictures", lambda: {"pictures": draw()})["pictures"]
     facts = {} if suite.facts is None else parts.once("facts", suite.facts)
     about = {**suite.about, **facts}
     return report_data(suite.branch, about, suite.settings, tables, samples, drawn)
@@ -168,10 +169,6 @@ def run_suite(suite: Suite, parts: Parts, progress: Progress = lambda text: None
 
 def _as_part(make: Callable[[], list[Grid]]) -> Part:
     return {"grids": [grid.as_dict() for grid in make()]}
-
-
-def _drawn(draw: Callable[[Path], list[dict[str, Any]]], folder: Path | None) -> Part:
-    return {"pictures": [] if folder is None else draw(folder)}
 
 
 def part_name(bench: str, row: str, replication: int) -> str:

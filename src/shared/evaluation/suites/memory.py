@@ -52,9 +52,7 @@ class Arm:
     share: float = 1.0  # of the memory's songs that may be found
 
 
-def arms() -> list[Arm]:
-    """Without, with, random."""
-    return [Arm(WITHOUT, asks=False), Arm(WITH), Arm(RANDOM, stray=True)]
+ARMS = (Arm(WITHOUT, asks=False), Arm(WITH), Arm(RANDOM, stray=True))
 
 
 @dataclass(frozen=True)
@@ -326,15 +324,14 @@ def evaluate_memory(
         )
     amount = settings.num_songs, settings.song_seconds, seed
     pieces = held_out_songs(*amount, tell_meter=settings.tell_meter)
-    main = arms()
     others = [Arm(f"{share:.0%} of the songs", share=share) for share in settings.shares]
     others += [Arm(f"top {top_k}", top_k=top_k) for top_k in settings.top_ks]
     tables: list[Grid] = []
     verdict: dict[str, Any] = {}
     for figures, asked in (
-        (denoising(setting, items, settings.draws), [*main, *others]),
-        (curves(setting, items), main),
-        (songs(setting, list(pieces)), main),
+        (denoising(setting, items, settings.draws), [*ARMS, *others]),
+        (curves(setting, items), ARMS),
+        (songs(setting, list(pieces)), ARMS),
     ):
         measured = {}
         for arm in asked:

@@ -15,6 +15,7 @@ from src.shared.config_audio import MemoryConfig
 from src.shared.data.phrases.layout import parse_manifest
 from src.shared.errors import UsageError, UserError
 from src.shared.evaluation.suites.memory import (
+    ARMS,
     CHANCE,
     RANDOM,
     WITH,
@@ -23,7 +24,6 @@ from src.shared.evaluation.suites.memory import (
     Asker,
     MemorySettings,
     Setting,
-    arms,
     curve_distances,
     curves,
     denoising,
@@ -69,7 +69,7 @@ def query(count: int = 3) -> torch.Tensor:
 
 
 def test_without_is_told_nothing_and_random_is_as_sure_of_something_else() -> None:
-    found = {arm.name: asker().answer(arm, query(), None, 20, ["a", "b", "c"]) for arm in arms()}
+    found = {arm.name: asker().answer(arm, query(), None, 20, ["a", "b", "c"]) for arm in ARMS}
     assert list(found) == [WITHOUT, WITH, RANDOM] and found[WITHOUT] is None
     right, stray = found[WITH], found[RANDOM]
     assert right is not None and stray is not None
@@ -130,7 +130,7 @@ def test_a_silent_memory_changes_no_figure(pairs: Path) -> None:
     items = held_back(str(pairs), ("test",), 180, 4, 0)
     assert len(items) == 4
     for figures in (denoising(setting, items, 1), curves(setting, items)):
-        first, *rest = [figures.measure(arm) for arm in arms()]
+        first, *rest = [figures.measure(arm) for arm in ARMS]
         assert first.keys() == {column.key for column in figures.columns}
         for other in rest:
             assert all(np.array_equal(first[key], other[key]) for key in first)
