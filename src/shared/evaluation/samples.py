@@ -10,11 +10,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 import torch
-from torch import Tensor
 
 from ..data.prepared import SYNTHETIC, ClipRecord, PreparedData
 from ..errors import UserError
@@ -25,12 +24,13 @@ from ..motion.trajectory import MotionTrajectory
 
 if TYPE_CHECKING:
     from ..model.audio.audio_motion_model import AudioMotionModel
-    from ..model.audio.shared_space import AudioTower, MotionTower, SharedSpace
+    from ..model.audio.shared_space import AudioTower, MotionTower
     from ..model.generation.motion_generator import TextToMotion
 
 Found = TypeVar("Found")
 Name = TypeVar("Name", str, int)
 Moved = TypeVar("Moved", MotionTrajectory, Motion)
+Tower = TypeVar("Tower", "AudioTower", "MotionTower")
 # Prompts and their numbers of frames, with a seed, to one motion each, in the same order.
 Sampler = Callable[[Sequence[str], Sequence[int], int], list[Motion]]
 
@@ -308,16 +308,12 @@ def real_clips(
 # ---------------------------------------------------------------- floors
 
 
-def frozen(features: Tensor) -> Tensor:
-    """The first pose [T, K + 1, 6] held for the whole clip: the floor for anything that moves."""
+def frozen_pose(motion: Motion) -> Motion:
+    """The first pose of a motion held for its whole length: the floor for anything that moves."""
+    features = encode_features(motion)
     still = features[:1].expand_as(features).clone()
     still[:, ROOT_ROW, [FORWARD, LATERAL, YAW_RATE]] = 0
-    return still
-
-
-def frozen_pose(motion: Motion) -> Motion:
-    """The first pose of a motion held for its whole length."""
-    return decode_features(frozen(encode_features(motion)))
+    return decode_features(still)
 
 
 def held_still(motion: Motion) -> Motion:
@@ -362,18 +358,11 @@ def untrained_audio_model(model: "AudioMotionModel", seed: int) -> "AudioMotionM
     return fresh.to(model.mean.device).eval()
 
 
-def untrained_audio_tower(space: "SharedSpace", seed: int) -> "AudioTower":
-    """The audio tower as its training began, but for the seed; the statistics are the same."""
+def untrained_tower(tower: Tower, config: Any, seed: int) -> Tower:
+    """A tower of a shared space as its training began, but for the seed; the statistics are those
+    of the trained one."""
     with drawn_from(seed):
-        tower = type(space.audio)(space.config)
-    tower.set_statistics(space.audio.mean, space.audio.std)
-    return tower.eval()
-
-
-def untrained_motion_tower(space: "SharedSpace", seed: int) -> "MotionTower":
-    """The motion tower with random weights and the statistics of the trained one."""
-    with drawn_from(seed):
-        tower = type(space.motion)(space.card.network)
-    tower.mean.copy_(space.motion.mean)
-    tower.std.copy_(space.motion.std)
-    return tower
+        fresh = type(tower)(config)
+    fresh.mean.copy_(tower.mean)
+    fresh.std.copy_(tower.std)
+    return fresh.eval()

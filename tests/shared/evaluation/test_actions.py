@@ -11,9 +11,8 @@ from src.shared.evaluation.actions import (
     descriptor,
     shown,
 )
-from src.shared.evaluation.samples import frozen, frozen_pose
+from src.shared.evaluation.samples import frozen_pose
 from src.shared.metrics.measurements import ACTIONS
-from src.shared.motion.features import decode_features, encode_features
 
 LABELS = {
     "walk": {"action": "walk", "direction": "forward", "speed": "normal"},
@@ -44,8 +43,8 @@ def test_it_tells_actions_of_clips_it_has_not_seen(clips: dict[str, np.ndarray])
 
 def test_a_frozen_pose_is_no_walk(clips: dict[str, np.ndarray]) -> None:
     judge = fit(clips, slice(0, 16))
-    walk = encode_features(generate_clip(spec_for(LABELS["walk"], 99), seed=99))
-    still = descriptor(decode_features(frozen(walk)))
+    walk = generate_clip(spec_for(LABELS["walk"], 99), seed=99)
+    still = descriptor(frozen_pose(walk))
     assert np.isfinite(still).all()
     assert judge(still[None]) != ["walk"]
 
@@ -109,8 +108,8 @@ def test_a_frozen_pose_shows_no_action_of_kinematics() -> None:
     from src.shared.metrics.measurements import measure
 
     for name in ("walk", "squat", "punch", "wave"):
-        still = frozen(encode_features(generate_clip(spec_for(LABELS[name], 3), seed=3)))
-        assert not any(check(measure(decode_features(still))) for check in ACTIONS.values())
+        still = frozen_pose(generate_clip(spec_for(LABELS[name], 3), seed=3))
+        assert not any(check(measure(still)) for check in ACTIONS.values())
 
 
 def test_both_hands_may_be_up_when_each_has_something_to_do() -> None:

@@ -8,8 +8,13 @@ import pytest
 from src.shared.data.prepare import open_data
 from src.shared.data.prepared import ClipRecord, PreparedData
 from src.shared.errors import UserError
-from src.shared.evaluation.samples import choose_caption, frozen, real_clips, spread_over_groups
-from src.shared.motion.features import ROOT_ROW, decode_features
+from src.shared.evaluation.samples import (
+    choose_caption,
+    frozen_pose,
+    real_clips,
+    spread_over_groups,
+)
+from src.shared.motion.features import decode_features
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +47,7 @@ def test_small_helpers() -> None:
 
 def test_a_frozen_clip_does_not_move(data: PreparedData) -> None:
     record = data.records("train")[0]
-    still = frozen(data.features(record))
-    positions = decode_features(still).positions()
+    still = frozen_pose(decode_features(data.features(record)))
+    positions = still.positions()
     assert np.abs(positions - positions[:1]).max() < 1e-4
-    assert (still[:, ROOT_ROW, 2] == still[0, ROOT_ROW, 2]).all()
+    assert (still.root_position == still.root_position[0]).all()

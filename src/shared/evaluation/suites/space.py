@@ -26,7 +26,7 @@ from ...model.clip.tokenizer import PromptTokenizer
 from ...model.evaluator import padded
 from ...motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE
 from ..engine import Progress
-from ..samples import rows_of_each, untrained_audio_tower, untrained_motion_tower
+from ..samples import rows_of_each, untrained_tower
 from ..stats import Estimate
 from ..tables import Grid, GridRow, Report, report_data
 from .songs import song_of
@@ -325,7 +325,7 @@ def evaluate_space(
     sounds = {
         SPACE: held_out.embed_sounds(space.embed_audio),
         TEMPO: tempo_alone(train, train.embed_bodies(space.embed_motion), held_out),
-        UNTRAINED: held_out.embed_sounds(untrained_audio_tower(space, settings.seed)),
+        UNTRAINED: held_out.embed_sounds(untrained_tower(space.audio, space.config, settings.seed)),
     }
     tables = [
         _table(bench, "sound → motion", sounds, {SPACE: motion}),
@@ -336,12 +336,13 @@ def evaluate_space(
         progress("phrases without captions: texts are left out")
     elif texts is not None:
         spoken = space.embed_text(captions, *texts)
-        blind = held_out.embed_bodies(untrained_motion_tower(space, settings.seed))
+        blind = untrained_tower(space.motion, space.card.network, settings.seed)
+        bodies = {SPACE: motion, UNTRAINED: held_out.embed_bodies(blind)}
         text = {SPACE: spoken[[window.phrase for window in held_out.items]]}
         tables += [
             _table(bench, "text → sound", text, sounds, by_action=True),
             _table(bench, "sound → text", sounds, text, by_action=True),
-            _table(bench, "text → motion", text, {SPACE: motion, UNTRAINED: blind}, by_action=True),
+            _table(bench, "text → motion", text, bodies, by_action=True),
         ]
     rows = {}
     for name, keys in {**sounds, CHANCE: sounds[SPACE]}.items():

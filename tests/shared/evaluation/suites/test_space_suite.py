@@ -8,7 +8,7 @@ import pytest
 import torch
 
 from src.shared.data.phrases.dataset import MotionPhraseDataset
-from src.shared.evaluation.samples import untrained_audio_tower
+from src.shared.evaluation.samples import untrained_tower
 from src.shared.evaluation.suites.space import (
     CHANCE,
     SPACE,
@@ -142,7 +142,7 @@ def test_tempo_alone_is_a_kernel_regression(windows: Windows) -> None:
 def test_the_untrained_row_depends_on_the_seed_alone() -> None:
     space = tiny_space()
     space.audio.set_statistics(torch.ones(163), torch.full((163,), 2.0))
-    one, again, other = (untrained_audio_tower(space, seed) for seed in (0, 0, 1))
+    one, again, other = (untrained_tower(space.audio, space.config, seed) for seed in (0, 0, 1))
     weights = [tower.audio_proj.weight for tower in (one, again, other)]
     assert torch.equal(weights[0], weights[1]) and not torch.equal(weights[0], weights[2])
     assert torch.equal(one.mean, space.audio.mean) and torch.equal(one.std, space.audio.std)
