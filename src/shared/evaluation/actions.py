@@ -33,13 +33,11 @@ from ..metrics.measurements import (
     Measurements,
     credible,
     hand_swings,
-    heading_frame,
     measure,
     repetitions,
 )
-from ..metrics.physical import ahead_and_left, heading_of
 from ..model.clip.out_of_domain import TWINS
-from ..motion.features import decode_features
+from ..motion.features import ahead_and_left, decode_features, heading_frame, motion_heading
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX
 from ..tensors import Tensor
@@ -71,7 +69,7 @@ def descriptor(motion: Motion) -> np.ndarray:
     """What a body does, as numbers [F] in metres, seconds, radians: poses, speeds, rhythm of the
     limbs, swings, travel; joints are seen from the pelvis in the momentary heading frame."""
     joints = motion.positions().astype(np.float64)  # T K 3
-    heading = np.unwrap(heading_of(motion).astype(np.float64))
+    heading = np.unwrap(motion_heading(motion).astype(np.float64))
     body = heading_frame(joints, heading)
     velocity = np.diff(body, axis=0) * motion.fps  # T-1 K 3
     speed = np.linalg.norm(velocity, axis=-1)

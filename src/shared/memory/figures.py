@@ -31,8 +31,8 @@ from ..motion.features import (
     ROOT_ROW,
     encode_features,
     heading_joints,
-    headings,
     integrate_root,
+    motion_heading,
 )
 from ..motion.filters import smoothed
 from ..motion.motion import Motion, resample_motion
@@ -40,7 +40,6 @@ from ..motion.postprocess.contacts import detect_contacts
 from ..motion.rotations import (
     matrix_to_quaternion,
     quaternion_multiply,
-    quaternion_to_matrix,
     rotation_6d_to_matrix,
     yaw_quaternion,
 )
@@ -507,7 +506,7 @@ def _packed(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     rotations = rotation_6d_to_matrix(encode_features(motion)[:, :NUM_JOINTS].double())
     quaternions = matrix_to_quaternion(rotations)
     signed = torch.where(quaternions[..., :1] < 0, -quaternions, quaternions)[..., 1:].numpy()
-    heading = headings(quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))).numpy()
+    heading = motion_heading(motion)
     place = np.concatenate((motion.root_position, heading[:, None]), 1).astype(np.float64)
     turns = np.rint(signed * TURN_STEPS).astype(np.int16)
     places = np.rint(place * PLACE_STEPS).astype(np.int32)

@@ -21,12 +21,12 @@ import numpy as np
 import torch
 from scipy.spatial.distance import pdist
 
+from ..motion.features import ahead_and_left
 from ..motion.motion import Motion
 from ..motion.rotations import angular_velocity
 from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..motion.trajectory import MotionTrajectory
 from .frechet import Projection, frechet_distance
-from .physical import ahead_and_left
 
 WINDOW = 2  # frames on either side of a velocity or an acceleration
 KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint

@@ -12,11 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ..motion.features import headings
+from ..motion.features import ahead_and_left, heading_frame, headings, motion_heading
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_INDEX, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
-from .physical import ahead_and_left, heading_of
 
 Array = np.ndarray
 Pair = tuple[float, float]
@@ -57,7 +56,7 @@ def arms_alone(motion: Motion) -> bool:
 
 def stays(motion: Motion) -> bool:
     """Whether a body ends where it began, facing the same way, and never left its place."""
-    ground, ways = motion.root_position[:, [0, 2]].astype(np.float64), heading_of(motion)
+    ground, ways = motion.root_position[:, [0, 2]].astype(np.float64), motion_heading(motion)
     apart, turned = STEADY
     back = np.linalg.norm(ground[-1] - ground[0]) < apart and abs(ways[-1] - ways[0]) < turned
     return bool(back) and bool(np.ptp(ground, axis=0).max() < IN_PLACE)
@@ -155,13 +154,6 @@ def _tracks(motion: Motion) -> _Tracks:
     joints = smooth(positions.astype(np.float64), round(0.1 * motion.fps))
     chest = rotations[:, JOINT_INDEX["spine3"]].astype(np.float64)
     return _Tracks(motion.fps, joints, heading, chest, heading_frame(joints, heading))
-
-
-def heading_frame(joints: Array, heading: Array) -> Array:
-    """Joints [T,K,3] seen from the pelvis, turned so that the heading [T] is +Z."""
-    seen = joints - joints[:, :1]
-    ahead, left = ahead_and_left(seen, heading[:, None])
-    return np.stack((left, seen[..., 1], ahead), -1)
 
 
 def measure(motion: Motion) -> Measurements:

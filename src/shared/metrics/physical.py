@@ -10,26 +10,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..motion.features import headings
+from ..motion.features import motion_heading
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import contact_runs, detect_contacts
-from ..motion.rotations import quaternion_to_matrix
 from ..motion.skeleton import FOOT_JOINTS, JOINT_INDEX, REST_FOOT_HEIGHT
-from ..tensors import torch
 
 BALLS = [ball for _, ball in FOOT_JOINTS]
-
-
-def heading_of(motion: Motion) -> np.ndarray:
-    """Radians [T] that the pelvis faces, unwrapped, float32."""
-    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
-    return np.asarray(headings(pelvis).numpy())
-
-
-def ahead_and_left(steps: np.ndarray, heading: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
-    """Steps [..., 3] over the ground as seen along headings [...] in radians: two parts [...]."""
-    x, z, sine, cosine = steps[..., 0], steps[..., 2], np.sin(heading), np.cos(heading)
-    return x * sine + z * cosine, x * cosine - z * sine
 
 
 def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
@@ -231,7 +217,7 @@ def travel(motion: Motion) -> np.ndarray:
         [3]: speed, m/s, the path of the pelvis over the ground; direction, radians from where it
         faces at first, + = to its left, NaN below 0.5 m; turn, radians of heading gained, + = left.
     """
-    heading = heading_of(motion)
+    heading = motion_heading(motion)
     path = motion.root_position[:, [0, 2]].astype(np.float64)  # x, z
     seconds = (motion.num_frames - 1) / motion.fps
     across, along = path[-1] - path[0]

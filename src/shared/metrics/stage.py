@@ -8,13 +8,14 @@ Letters: T frames, K joints, A principal axes.
 
 import numpy as np
 
+from ..motion.features import motion_heading
 from ..motion.filters import smoothed
 from ..motion.motion import Motion
 from ..motion.postprocess.contacts import contact_runs
 from ..motion.rotations import turn_about_y
 from ..motion.skeleton import REST_FOOT_HEIGHT
 from ..tensors import torch
-from .physical import BALLS, SUPPORT_HEIGHT, ground_speed, heading_of
+from .physical import BALLS, SUPPORT_HEIGHT, ground_speed
 
 SWAY = 0.25  # seconds, standard deviation: a sway within a step is no way
 MOVING = 0.1  # m/s of that smoothed path; slower has no direction
@@ -30,7 +31,7 @@ SLIDING = 0.2  # m/s of the slower foot while both are near the floor
 def stage(motion: Motion) -> dict[str, float]:
     """Figures of one dance of at least two frames; NaN where there is nothing to judge."""
     positions = motion.positions().astype(np.float64)
-    path, heading = positions[:, 0, [0, 2]], heading_of(motion).astype(np.float64)
+    path, heading = positions[:, 0, [0, 2]], motion_heading(motion).astype(np.float64)
     # Joints seen from below the pelvis, facing +Z.
     seen = positions - positions[:, :1] * np.array([1.0, 0.0, 1.0])
     turns = -torch.from_numpy(heading)[:, None]

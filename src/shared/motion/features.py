@@ -62,6 +62,25 @@ def headings(matrices: Tensor, spans: Sequence[slice] = (slice(None),)) -> Tenso
     return torch.as_tensor(np.concatenate(whole), dtype=matrices.dtype)
 
 
+def motion_heading(motion: Motion) -> np.ndarray:
+    """Radians [T] that the pelvis faces, unwrapped, float32."""
+    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
+    return np.asarray(headings(pelvis).numpy())
+
+
+def ahead_and_left(steps: np.ndarray, heading: np.ndarray | float) -> tuple[np.ndarray, np.ndarray]:
+    """Steps [..., 3] over the ground as seen along headings [...] in radians: two parts [...]."""
+    x, z, sine, cosine = steps[..., 0], steps[..., 2], np.sin(heading), np.cos(heading)
+    return x * sine + z * cosine, x * cosine - z * sine
+
+
+def heading_frame(joints: np.ndarray, heading: np.ndarray) -> np.ndarray:
+    """Joints [T,K,3] seen from the pelvis, turned so that the heading [T] is +Z."""
+    seen = joints - joints[:, :1]
+    ahead, left = ahead_and_left(seen, heading[:, None])
+    return np.stack((left, seen[..., 1], ahead), -1)
+
+
 def hastened(features: Tensor, times: float, frames: int | None = None) -> Tensor:
     """Features [T,23,6] so many times as fast, or in so many frames: between two frames a share of
     both, and it goes as far as they do."""

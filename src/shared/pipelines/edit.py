@@ -16,8 +16,6 @@ import numpy as np
 
 from ..config_loader import did_you_mean
 from ..errors import UsageError, UserError, in_range
-from ..metrics.measurements import heading_frame
-from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
@@ -31,8 +29,10 @@ from ..motion.features import (
     Place,
     decode_features,
     encode_features,
+    heading_frame,
     integrate_root,
     mirror_features,
+    motion_heading,
 )
 from ..motion.motion import Motion, resample_motion
 from ..motion.postprocess.stitching import blend_boundaries, place_of
@@ -302,7 +302,7 @@ def held(
     alone = replace(passage, frames=first, miss=miss(first))
     features = torch.cat(list(stream_features(generator, [alone], sampling)))
     motion = decode_features(features, fps=fps)
-    heading = np.unwrap(heading_of(motion).astype(np.float64))
+    heading = np.unwrap(motion_heading(motion).astype(np.float64))
     joints = motion.positions().astype(np.float64)
     body = heading_frame(joints, heading)
     body[:, 0, 1] = joints[:, 0, 1]  # how high the pelvis is

@@ -19,11 +19,18 @@ import numpy as np
 from ..config_loader import did_you_mean, parse_yaml
 from ..errors import UsageError, UserError, has_words
 from ..io.files import read_text
-from ..metrics.physical import heading_of
 from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
-from ..motion.features import FORWARD, LATERAL, ROOT_ROW, YAW_RATE, Place, integrate_root
+from ..motion.features import (
+    FORWARD,
+    LATERAL,
+    ROOT_ROW,
+    YAW_RATE,
+    Place,
+    integrate_root,
+    motion_heading,
+)
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import moved_to, place_of
 from ..tensors import Tensor, torch
@@ -320,7 +327,7 @@ def in_a_loop(
         "turn": float(np.degrees(after.heading - before.heading)),
     }
     once = rounds.frames(frames, 2 * frames + 1)
-    heading, start = heading_of(once), Place()
+    heading, start = motion_heading(once), Place()
     if math.radians(abs(errors["turn"])) < MEANT:
         start = Place(heading=float(heading[0] - heading[:-1].mean()))
     return ControlledMotion(moved_to(once, start), errors)

@@ -15,11 +15,10 @@ from scipy.ndimage import gaussian_filter1d
 
 from src.shared.errors import UserError
 from src.shared.metrics.measurements import ACTIONS, Check, Measurements, at_rest, measure
-from src.shared.metrics.physical import heading_of
 from src.shared.model.diffusion import Sampling
 from src.shared.model.generation.motion_generator import TextToMotion
 from src.shared.model.noise import TRIES
-from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features
+from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, motion_heading
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
@@ -225,7 +224,7 @@ def test_what_comes_behind_a_way_may_be_led(starter: TextToMotion):
     """Frames of a way are none that a constraint counts; passages shorter than an overlap."""
     text = "sleeps for 0.2 seconds, then walks for 0.2 seconds, then turns left 90 degrees"
     [motion] = SentenceGenerator(starter).generate([text])
-    heading = heading_of(motion)
+    heading = motion_heading(motion)
     assert np.degrees(heading[-1] - heading[0]) == pytest.approx(90, abs=10)
 
 

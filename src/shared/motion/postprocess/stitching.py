@@ -23,7 +23,7 @@ from ..features import (
     YAW_RATE,
     Place,
     heading_joints,
-    headings,
+    motion_heading,
 )
 from ..filters import smoothed
 from ..motion import Motion
@@ -50,9 +50,8 @@ BLUR, REACH = 1.5, 4.0  # frames, standard deviations: of the average at a cut, 
 
 def place_of(motion: Motion, frame: int) -> Place:
     """Where a body is in a frame."""
-    pelvis = quaternion_to_matrix(torch.as_tensor(motion.quaternions[:, 0]))
     x, _, z = motion.root_position[frame].tolist()
-    return Place(x, z, float(headings(pelvis)[frame]))
+    return Place(x, z, float(motion_heading(motion)[frame]))
 
 
 def moved_to(motion: Motion, place: Place) -> Motion:
