@@ -408,8 +408,10 @@ def plot(
 
         plot_losses(read_losses(file), picture, title=str(file))
     else:
-        from ..shared.evaluation.suites.sanity import plot_trajectory
+        from ..shared.formats.preview.charts import plot_trajectory
         from ..shared.formats.registry import read_trajectory
+        from ..shared.metrics.sanity import SanityThresholds
 
-        plot_trajectory(read_trajectory(file), picture, title=str(file))
+        bound = SanityThresholds().max_jerk
+        plot_trajectory(read_trajectory(file), picture, max_jerk=bound, title=str(file))
     print(picture)

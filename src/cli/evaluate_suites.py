@@ -320,7 +320,8 @@ def evaluate_sanity(
     options.check_folder("--output-dir", output_dir)
 
     from ..shared.evaluation.suites import sanity
-    from ..shared.evaluation.suites.sanity import plot_trajectory
+    from ..shared.formats.preview.charts import plot_trajectory
+    from ..shared.metrics.sanity import SanityThresholds
 
     set_threads(threads)
     result = sanity.evaluate_sanity(
@@ -334,7 +335,8 @@ def evaluate_sanity(
     keep_and_show(result.report, *files, json=json)
     sanity.plot_bands(result.motions, result.bands, output_dir / "bands.png")
     first = result.motions["generated"][0]
-    plot_trajectory(first, output_dir / "trajectory.png", title="generated, sample 1")
+    picture, bound = output_dir / "trajectory.png", SanityThresholds().max_jerk
+    plot_trajectory(first, picture, max_jerk=bound, title="generated, sample 1")
 
 
 # ---------------------------------------------------------------- selection

@@ -16,14 +16,13 @@ from typing import Any
 import numpy as np
 
 from ...errors import UserError
-from ...formats.preview.drawing import legend, new_figure, save_figure
+from ...formats.preview.drawing import new_figure, save_figure
 from ...metrics.sanity import (
     MEASURES,
     SEVEN,
     UNITS,
     Bands,
     SanityChecker,
-    SanityThresholds,
     frozen,
     sanity_row,
 )
@@ -250,41 +249,4 @@ def plot_bands(
         axes.set_yscale("symlog", linthresh=0.1)
         axes.set_ylim(-0.01, 2 * max(top, 0.1))
     figure.suptitle("dots: motions; green: 5th to 95th percentile of training motions")
-    return save_figure(figure, Path(path))
-
-
-def plot_trajectory(trajectory: MotionTrajectory, path: str | Path, *, title: str = "") -> Path:
-    """A trajectory's six panels (TECH §14.2) as .png, .pdf or .svg: position, velocity, quaternion,
-    phase, quaternion norm and jerk over the seconds of at least one frame.
-    Raises UserError: matplotlib is missing, or the file cannot be written."""
-    figure = new_figure(12, 10)
-    panels = figure.subplots(3, 2, sharex=True).flat
-    seconds = np.arange(trajectory.num_frames) / trajectory.fps
-    phase = trajectory.phase.astype(np.float64)
-    phase[1:][np.diff(trajectory.phase) < -0.5] = np.nan  # no line through the bar
-    for axes, name, values, labels in zip(
-        panels,
-        ("Position, m", "Velocity, m/s", "Quaternion", "Phase of the bar"),
-        (trajectory.position, trajectory.velocity, trajectory.quaternion, phase),
-        ("xyz", "xyz", "wxyz", ""),
-        strict=False,
-    ):
-        axes.plot(seconds, values, label=list(labels) or None)
-        axes.set_title(name, loc="left")
-        if labels:
-            legend(axes)
-    figure.axes[3].set_ylim(-0.05, 1.05)
-    norm, jerk = figure.axes[4:]
-    norm.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
-    norm.axhline(1.0, color="red", linestyle="--")
-    norm.set_title("Quaternion norm", loc="left")
-    norm.set_ylim(0.8, 1.2)
-    steps = np.diff(trajectory.acceleration, axis=0) * trajectory.fps
-    jerk.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
-    jerk.axhline(SanityThresholds().max_jerk, color="red", linestyle="--")
-    jerk.set_yscale("symlog", linthresh=1)
-    jerk.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
-    for axes in figure.axes[4:]:
-        axes.set_xlabel("seconds")
-    figure.suptitle(title)
     return save_figure(figure, Path(path))

@@ -1,4 +1,4 @@
-"""Pictures of a trajectory and of an analysed song, with Pillow.
+"""Pictures of a trajectory and of an analysed song, with Pillow; a trajectory's plots.
 
 A trajectory: its path from above, and its speed over time under the song's beats. The colour is
 the place in the bar, as in the HTML preview; lines of the path point to where the pelvis faces.
@@ -21,7 +21,10 @@ from .drawing import (
     OVERSAMPLE,
     FloorMap,
     font,
+    legend,
+    new_figure,
     new_sheet,
+    save_figure,
     save_sheet,
 )
 from .trajectory import PATH, BeatMarks, SongTrack, beat_marks, phase_palette
@@ -234,3 +237,42 @@ def _draw_clock(draw: ImageDraw.ImageDraw, box: tuple[int, int, int, int], secon
         x = left + second / seconds * (right - left)
         label = f"{second // 60}:{second % 60:02d}"
         draw.text((x, top), label, INK, font(10 * OVERSAMPLE), anchor="ma")
+
+
+def plot_trajectory(
+    trajectory: MotionTrajectory, path: str | Path, *, max_jerk: float, title: str = ""
+) -> Path:
+    """A trajectory's six panels (TECH §14.2) as .png, .pdf or .svg: position, velocity, quaternion,
+    phase, quaternion norm and jerk with the bound of its mean, over seconds of at least one frame.
+    Raises UserError: matplotlib is missing, or the file cannot be written."""
+    figure = new_figure(12, 10)
+    panels = figure.subplots(3, 2, sharex=True).flat
+    seconds = np.arange(trajectory.num_frames) / trajectory.fps
+    phase = trajectory.phase.astype(np.float64)
+    phase[1:][np.diff(trajectory.phase) < -0.5] = np.nan  # no line through the bar
+    for axes, name, values, labels in zip(
+        panels,
+        ("Position, m", "Velocity, m/s", "Quaternion", "Phase of the bar"),
+        (trajectory.position, trajectory.velocity, trajectory.quaternion, phase),
+        ("xyz", "xyz", "wxyz", ""),
+        strict=False,
+    ):
+        axes.plot(seconds, values, label=list(labels) or None)
+        axes.set_title(name, loc="left")
+        if labels:
+            legend(axes)
+    figure.axes[3].set_ylim(-0.05, 1.05)
+    norm, jerk = figure.axes[4:]
+    norm.plot(seconds, np.linalg.norm(trajectory.quaternion, axis=1))
+    norm.axhline(1.0, color="red", linestyle="--")
+    norm.set_title("Quaternion norm", loc="left")
+    norm.set_ylim(0.8, 1.2)
+    steps = np.diff(trajectory.acceleration, axis=0) * trajectory.fps
+    jerk.plot(seconds[:-1], np.linalg.norm(steps, axis=1))
+    jerk.axhline(max_jerk, color="red", linestyle="--")
+    jerk.set_yscale("symlog", linthresh=1)
+    jerk.set_title("Jerk, m/s³ (dashed: bound of its mean)", loc="left")
+    for axes in figure.axes[4:]:
+        axes.set_xlabel("seconds")
+    figure.suptitle(title)
+    return save_figure(figure, Path(path))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from src.shared.evaluation.suites.sanity import plot_trajectory
+from src.shared.formats.preview.charts import plot_trajectory
 from tests.shared.motion.trajectories import smooth_trajectory
 
 pytest.importorskip("matplotlib")
@@ -14,7 +14,8 @@ pytest.importorskip("matplotlib")
 
 @pytest.mark.parametrize("num_frames", [1, 90])
 def test_a_trajectory_becomes_six_panels(num_frames: int, tmp_path: Path) -> None:
-    path = plot_trajectory(smooth_trajectory(1, num_frames), tmp_path / "a.png", title="a")
+    motion, file = smooth_trajectory(1, num_frames), tmp_path / "a.png"
+    path = plot_trajectory(motion, file, max_jerk=2000.0, title="a")
     with Image.open(path) as picture:
         assert picture.size == (1200, 1000)
         assert len(np.unique(np.asarray(picture.convert("L")))) > 10
