@@ -228,11 +228,7 @@ def intervals_note(report: Report) -> str:
         return ""  # no table of a bench
     first, runs = settings["seed"], settings["replications"]
     seeds = f"seed {first}" if runs == 1 else f"seeds {first}, {first + 1000}, … ({runs} runs)"
-    return (
-        f"{seeds}. ± is half a 95% interval: over replications (1.96 σ/√runs) for figures of a"
-        " whole sample, over motions (percentile bootstrap; Wilson where all are yes or no) for"
-        " figures of single motions. N × runs: motions a replication, and replications."
-    )
+    return str(described("intervals", seeds=seeds)["note"])
 
 
 def markdown(report: Report) -> str:

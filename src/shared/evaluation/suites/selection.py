@@ -36,15 +36,10 @@ from ..engine import Progress, Value
 from ..families import OBEDIENCE, PHYSICS, TRAVEL
 from ..samples import Clips, MotionSample, open_held_out, real_clips
 from ..stats import Estimate, bootstrap_mean, replicated
-from ..tables import Column, Grid, GridRow, Report, report_data
+from ..tables import WORDS, Column, Grid, GridRow, Report, report_data
 from .songs import Piece, held_out_songs, open_split, phrases
 
 Role = Literal["outside", "akin", "judge"]
-ROLES: dict[Role, str] = {
-    "outside": "figures outside the judge",
-    "akin": "figures akin to the judge's",
-    "judge": "the judge's own terms",
-}
 Chosen = np.ndarray  # [P], which candidate of each subject
 
 
@@ -177,7 +172,7 @@ def selection_grids(found: Report, figures: Sequence[Figure], subjects: str) -> 
     }
     rows = {name: GridRow(cells) for name, cells in found["rows"].items()}
     rows[f"{last} less best of 1"] = GridRow(gains)
-    for role, title in ROLES.items():
+    for role, title in WORDS["selection"]["roles"].items():
         columns = [
             Column(f.key, f"{f.heading} {'↑' if f.higher else '↓'}", f.decimals)
             for f in figures
@@ -192,18 +187,7 @@ def selection_grids(found: Report, figures: Sequence[Figure], subjects: str) -> 
 
 BATCHINGS = 20  # random batches of 32 that each prompt's R-precision is the mean of
 PROMPTS_AT_ONCE = 8
-# Outside the judge is everything of the separate evaluator, whether the labels are obeyed, travel
-# against a real clip. The judge slides and shakes by other measures than these, which are akin.
-FIGURES = (
-    Figure("r_at_1", "R@1", 3, True, "outside"),
-    Figure("r_at_3", "R@3", 3, True, "outside"),
-    Figure("matching_distance", "MM-Dist", 3, False, "outside"),
-    Figure("obeys", "labels obeyed", 3, True, "outside"),
-    Figure("speed_error", "speed error m/s", 3, False, "outside"),
-    Figure("turn_error", "turn error °", 1, False, "outside"),
-    Figure("support_slide", "slide, support cm/s", 2, False, "akin"),
-    Figure("hand_jerk", "wrist jerk m/s³", 0, False, "akin"),
-)
+FIGURES = tuple(Figure(*each) for each in WORDS["selection"]["prompts"])
 
 
 @dataclass(frozen=True)
@@ -355,14 +339,7 @@ def evaluate_prompts(
 # ---------------------------------------------------------------- songs
 
 KINDS = 5  # kinetic features of a pelvis, each of a unit of its own
-# The judge looks at the sanity suite, whose bands hold speeds, turning and accelerations, and at
-# beats that the tracker heard: true beats and kinetic distance are akin to that. Outside is the
-# geometric distance (the share of frames in which a pelvis is low, goes backward, ...).
-HITS = Figure("hits", "hits F, true beats", 3, True, "akin")
-DISTANCES = (
-    Figure("fid_g", "FID_g, pelvis", 3, False, "outside"),
-    Figure("fid_k", "FID_k, pelvis", 3, False, "akin"),
-)
+HITS, *DISTANCES = (Figure(*each) for each in WORDS["selection"]["songs"])
 
 
 @dataclass(frozen=True)
