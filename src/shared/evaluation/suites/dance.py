@@ -196,25 +196,25 @@ class DanceContext:
 
     def figured(self, replication: int, *, at_random: bool = False) -> Bodies:
         """Dances of recorded figures, chosen or drawn; a song without beats has none."""
-        how = "at random" if at_random else "chosen"
-        made = partial(self._figured, replication, at_random)
-        return self.memo.once(f"figured {how} {replication}", made)
 
-    def _figured(self, replication: int, at_random: bool) -> Bodies:
-        dancer = FigureDancer(self.choreographer, self.generator, at_random=at_random)
-        found = []
-        for piece in self.pieces:
-            heard = np.zeros(0) if piece.heard is None else piece.heard
-            song = SongCondition(piece.condition, piece.phase, heard)
-            own = self._own_seed(piece, replication)
-            sampling = replace(self.sampling, foot_lock=False, seed=own)
-            made = dancer.dance(song, Wish(), sampling=sampling, foot_lock=False)
-            if made is not None:
-                raw, frames = made[0], made[0].num_frames
-                joins = [round(figure.start * FPS) for figure in made[1][1:]]
-                near = marked(frames, ((at, at) for at in joins))
-                found.append(Dance(piece.name, lock_feet(raw), piece.beats, raw=raw, seams=near))
-        return DanceSample.of(found)
+        def make() -> Bodies:
+            dancer = FigureDancer(self.choreographer, self.generator, at_random=at_random)
+            found = []
+            for piece in self.pieces:
+                heard = np.zeros(0) if piece.heard is None else piece.heard
+                song = SongCondition(piece.condition, piece.phase, heard)
+                own = self._own_seed(piece, replication)
+                sampling = replace(self.sampling, foot_lock=False, seed=own)
+                made = dancer.dance(song, Wish(), sampling=sampling, foot_lock=False)
+                if made is not None:
+                    raw, joins = made[0], [round(figure.start * FPS) for figure in made[1][1:]]
+                    near = marked(raw.num_frames, ((at, at) for at in joins))
+                    found.append(
+                        Dance(piece.name, lock_feet(raw), piece.beats, raw=raw, seams=near)
+                    )
+            return DanceSample.of(found)
+
+        return self.memo.once(f"figured {at_random} {replication}", make)
 
     def frozen_pose(self, replication: int) -> Bodies:
         """The first pose of each dance held where it is."""
