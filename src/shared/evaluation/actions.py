@@ -318,9 +318,7 @@ def action_reliability(
 ) -> dict[str, float]:
     """Share of `tries` in which each action of the training clips was shown: (successes + 1) /
     (tries + 2), the mean of the posterior under a uniform prior (Laplace), as one try tells little.
-
-    The next call goes on from the file `kept`; another model or judge needs another one.
-    """
+    The next call goes on from the file `kept`; another model or judge needs another one."""
     train = _captioned(data)
     asked = []
     for _, rows in sorted(rows_of_each(record.tag for record in train).items()):

@@ -179,11 +179,8 @@ def part_name(bench: str, row: str, replication: int) -> str:
 def run_bench(
     bench: Bench[Sample], parts: Parts, replications: int, seed: int, progress: Progress
 ) -> list[Grid]:
-    """Measure what is missing, and make one table a family.
-
-    The rows come replication by replication, so that whoever stops early has a whole report of
-    fewer replications.
-    """
+    """Measure what is missing, and make one table a family. The rows come replication by
+    replication, so that whoever stops early has a whole report of fewer."""
     rows = [row for row in bench.rows if row.limit != 0]
     measured: dict[str, list[Part]] = {row.name: [] for row in rows}
     for replication in range(replications):
@@ -253,11 +250,9 @@ def _keep_worst(
 def worst_first(
     families: Iterable[MetricFamily[Sample]], values: Mapping[str, np.ndarray], num: int
 ) -> list[int]:
-    """Rows [N] from worst to best.
-
-    By the mean over families of the mean rank among the columns that give one figure a motion and
-    have a good side; a motion to which a column does not apply is in the middle of it.
-    """
+    """Rows [N] from worst to best, by the mean over families of the mean rank among the columns
+    that give one figure a motion and have a good side; a motion to which a column does not apply is
+    in the middle of it."""
     totals = np.zeros(num)
     for family in families:
         good = [c for c in family.columns if c.key in values and c.better != "real"]

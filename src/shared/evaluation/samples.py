@@ -223,9 +223,7 @@ def open_held_out(data: str, cache: Path, trained_groups: frozenset[str]) -> Hel
 
     Fresh clips ("synthetic", kept in `cache`) are made with a seed that no training uses, so that
     all are held back; what is not among the label combinations `trained_groups` is unseen.
-
-    Raises UserError: no such folder, or it is damaged.
-    """
+    Raises UserError: no such folder, or it is damaged."""
     if data != SYNTHETIC:
         prepared = PreparedData.open(data)
         splits = {name: prepared.records(f"test_{name}") for name in ("seen", "unseen")}
@@ -347,10 +345,8 @@ def untrained(generator: "TextToMotion", seed: int) -> "TextToMotion":
 
 
 def untrained_audio_model(model: "AudioMotionModel", seed: int) -> "AudioMotionModel":
-    """The same network with fresh weights but the trained one's row statistics.
-
-    As training begins the last layer is zero, and every motion stands still: here it is random too.
-    """
+    """The same network with fresh weights but the trained one's row statistics. As training begins
+    the last layer is zero, and every motion stands still: here it is random too."""
     with drawn_from(seed):
         fresh = type(model)(model.config)
         torch.nn.init.xavier_uniform_(fresh.unet.output_conv.get_parameter("weight"))

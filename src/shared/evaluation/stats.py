@@ -90,9 +90,7 @@ def paired_bootstrap(
 
     Of pairs a[i], b[i] without a NaN, drawn with replacement `num` times (B), so that what makes a
     prompt hard for both counts for neither.
-
-    Raises ValueError: different lengths, or fewer than two pairs.
-    """
+    Raises ValueError: different lengths, or fewer than two pairs."""
     left, right = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
     if left.shape != right.shape or left.ndim != 1:
         raise ValueError(f"pairs must be aligned, got {left.shape} and {right.shape}")

@@ -43,10 +43,7 @@ def gaussian_frechet(
 
 def frechet_distance(a: np.ndarray, b: np.ndarray) -> float:
     """Fréchet distance of two samples [N, D] and [M, D].
-
-    Raises:
-        ValueError: no arrays of two axes and one width, NaN, or N < 2.
-    """
+    Raises ValueError: no arrays of two axes and one width, NaN, or N < 2."""
     for name, sample in (("a", a), ("b", b)):
         if not isinstance(sample, np.ndarray):
             raise ValueError(f"{name} is a {type(sample).__name__}; give an array [N, D]")
@@ -137,12 +134,9 @@ def group_frechet(
 
 
 def diversity(embeddings: np.ndarray, *, seed: int = 0) -> float:
-    """Mean distance of 300 random pairs of different rows of embeddings [N, D].
-
-    With fewer than 600 rows as many disjoint pairs as there are. Close to real is best.
-
-    Raises ValueError: fewer than two rows.
-    """
+    """Mean distance of 300 random disjoint pairs of rows of embeddings [N, D], of as many as there
+    are below 600 rows. Close to real is best.
+    Raises ValueError: fewer than two rows."""
     pairs = min(300, len(embeddings) // 2)
     if pairs < 1:
         raise ValueError(f"{len(embeddings)} embeddings make no pair: at least 2 are needed")
@@ -155,9 +149,7 @@ def within_prompts(embeddings: np.ndarray, prompts: Sequence[str]) -> tuple[floa
     """Multimodality of embeddings [N, D]: the mean distance of motions of one of the prompts [N],
     NaN where none comes twice, and how many do. All pairs of a prompt: what ten random ones (Guo)
     estimate.
-
-    Raises ValueError: lengths that differ, NaN or infinity.
-    """
+    Raises ValueError: lengths that differ, NaN or infinity."""
     if len(embeddings) != len(prompts):
         raise ValueError(f"{len(embeddings)} embeddings and {len(prompts)} prompts are not aligned")
     values = finite(embeddings)

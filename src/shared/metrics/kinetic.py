@@ -66,11 +66,8 @@ def _checked(points: Array) -> Array:
 def kinetic_features(points: Array, fps: float) -> Array:
     """Mean squared horizontal and vertical speed and mean acceleration of each joint (`KINDS`) of
     points [T, K, 3] in metres in the world, y up: [K, 3] in m²/s², m²/s², m/s².
-
     Means over five frames. Turning about y, moving anywhere, playing backwards change nothing.
-
-    Raises ValueError: fewer than 3 frames, NaN or infinity.
-    """
+    Raises ValueError: fewer than 3 frames, NaN or infinity."""
     path = _checked(points)
     velocity = windowed_mean(np.diff(path, axis=0)) * fps  # T-1 K 3
     acceleration = windowed_mean(np.diff(path, n=2, axis=0)) * fps**2  # T-2 K 3

@@ -25,9 +25,7 @@ def ground_speed(positions: np.ndarray, fps: float) -> np.ndarray:
 
 def contact_slide(positions: np.ndarray, fps: float) -> float:
     """Mean horizontal speed in cm/s of the balls of the feet over frames in contact; NaN without.
-
-    `detect_contacts` itself asks for a slow foot: read it together with `support_slide`.
-    """
+    `detect_contacts` itself asks for a slow foot: read it together with `support_slide`."""
     contact = detect_contacts(positions, fps)[:-1] > 0.5  # [T - 1, 2]
     speed = ground_speed(positions[:, BALLS], fps)
     return 100 * _mean(speed[contact])

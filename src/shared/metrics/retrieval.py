@@ -56,12 +56,8 @@ class Ranks:
 
 
 def best_ranks(distances: np.ndarray, relevant: np.ndarray) -> Ranks:
-    """Rank the best right answer of each query.
-
-    Args:
-        distances: [Q, M] of each query to each candidate; infinity takes one out of the list.
-        relevant: [Q, M] bool, the candidates that count as right; a query without any never hits.
-    """
+    """Rank the best right answer of each query by its distances [Q, M] to all candidates; infinity
+    takes one out of the list. `relevant` [Q, M] bool are right; without any, a query never hits."""
     best = np.where(relevant, distances, np.inf).min(1, keepdims=True)
     tied = distances == best
     return Ranks((distances < best).sum(1), (tied & relevant).sum(1), (tied & ~relevant).sum(1))
@@ -167,9 +163,7 @@ def cosines(text: np.ndarray, motion: np.ndarray) -> np.ndarray:
 
     Equal rows are multiplied once: a matrix product may round two copies differently, and break
     their tie.
-
-    Raises ValueError: shapes that differ, NaN or infinity, or a vector of length 0.
-    """
+    Raises ValueError: shapes that differ, NaN or infinity, or a vector of length 0."""
     if text.ndim != 2 or text.shape != motion.shape:
         raise ValueError(f"texts {text.shape} and motions {motion.shape} must be aligned [N, D]")
     rows, row = np.unique(_unit(text), axis=0, return_inverse=True)
@@ -275,9 +269,7 @@ def recall_in_pools(
 
     Pools of 32 are protocol (d) (Guo et al.). Recall falls as candidates are added, so samples of
     different N only compare in pools of one size.
-
-    Raises ValueError: fewer pairs than one pool.
-    """
+    Raises ValueError: fewer pairs than one pool."""
     if len(text) < size:
         raise ValueError(f"{len(text)} pairs are fewer than one pool of {size}: add samples")
     found = []

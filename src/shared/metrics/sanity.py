@@ -236,10 +236,8 @@ WHAT = {
 
 @dataclass(frozen=True)
 class SanityThresholds:
-    """Bounds of the checks; TECH's names, its values but for jerk and acceleration.
-
-    TECH's jerk of 50,000 passes anything (ruling 18); real motion has at most a fourth of this.
-    """
+    """Bounds of the checks; TECH's names, its values but for jerk and acceleration. Its jerk of
+    50,000 passes anything (ruling 18); real motion has at most a fourth of this."""
 
     quaternion_norm_min: float = 0.95  # of the mean norm
     quaternion_norm_max: float = 1.05

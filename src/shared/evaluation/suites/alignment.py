@@ -100,10 +100,8 @@ TEMPO_TOLERANCE = 0.04  # the usual one
 
 
 def right_tempo(piece: Piece) -> bool:
-    """Does the tracker's phase run as fast as the true one for most of the song?
-
-    An octave error, twice or half as fast, has no phase to speak of.
-    """
+    """Does the tracker's phase run as fast as the true one for most of the song? An octave error,
+    twice or half as fast, has no phase to speak of."""
     if piece.phase is None or piece.bars is None:
         return False
     heard, true = np.diff(piece.phase) * piece.meter, np.diff(piece.bars) * piece.true_meter
@@ -111,10 +109,8 @@ def right_tempo(piece: Piece) -> bool:
 
 
 def phase_row(songs: Sequence[tuple[Piece, np.ndarray]]) -> dict[str, Estimate]:
-    """`song_phase` over songs, each column with its interval.
-
-    `songs`: what is true, and unwrapped bars [T] in the tracker's meter.
-    """
+    """`song_phase` over songs, each column with its interval: of each song what is true, and
+    unwrapped bars [T] in the tracker's meter."""
     return bootstrap_columns(
         [
             rhythm.song_phase(bars * piece.meter, bars, piece.bars, piece.true_meter, piece.beats)

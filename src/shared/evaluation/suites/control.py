@@ -115,10 +115,8 @@ def plan_cells(
 
 
 def _measured(cells: Sequence[Cell], sampler: Sampler, seed: int) -> Part:
-    """What all motions of these cells do, made in one call, and the first cell's held still.
-
-    Equal prompts in several places get different noise from the sampler.
-    """
+    """What all motions of these cells do, made in one call, so that equal prompts in several places
+    get different noise, and what the first cell's do held still."""
     wanted = [prompt for cell in cells for prompt in (*cell.prompts, *cell.versus)]
     motions = sampler(wanted, [NUM_FRAMES] * len(wanted), seed)
     rest = iter(motions)

@@ -73,11 +73,9 @@ class Asker:
         *,
         draw: int = 0,
     ) -> MemoryCondition | None:
-        """What an arm is told of B windows; None for one that does not ask.
-
-        Of keys [B,D], unwrapped bars [B,T] (None = unknown), and songs [B] that are never found;
-        another `draw`, other stray questions.
-        """
+        """What an arm is told of B windows, of keys [B,D], unwrapped bars [B,T] (None = unknown)
+        and songs [B] that are never found; None for one that does not ask. Another `draw`, other
+        stray questions."""
         if not arm.asks:
             return None
         hidden, config = self.hidden(arm.share), self.config

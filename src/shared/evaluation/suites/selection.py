@@ -268,10 +268,8 @@ def _singles(sample: MotionSample, real: MotionSample) -> dict[str, np.ndarray]:
 def _retrieval(
     text: np.ndarray, motion: np.ndarray, clips: Clips, seed: int
 ) -> dict[str, np.ndarray]:
-    """Each prompt's R-precision [P] at 1 and 3, the mean over random batches of 32.
-
-    Motions of the same label group or caption are hits, as in `guo_retrieval`.
-    """
+    """Each prompt's R-precision [P] at 1 and 3, the mean over random batches of 32; motions of the
+    same label group or caption are hits, as in `guo_retrieval`."""
     hits, seen = np.zeros((len(TOP), len(text))), np.zeros(len(text))
     equal_by = clips.groups, clips.captions
     for batching in range(BATCHINGS):
