@@ -29,12 +29,6 @@ from ..motion.trajectory import MotionTrajectory
 from .frechet import Projection, frechet_distance
 
 WINDOW = 2  # frames on either side of a velocity or an acceleration
-KINDS = ("horizontal", "vertical", "acceleration")  # kinetic features of a joint
-ROOT_KINDS = (*KINDS, "turning", "tilting")
-ROOT_RELATIONS = (
-    "low", "high", "rising", "sinking", "fast", "forward", "backward", "to the left",
-    "to the right", "turning left", "turning right", "leaning",
-)  # fmt: skip
 
 _OFFSETS = canonical_skeleton().offsets
 UPPER_ARM = float(np.linalg.norm(_OFFSETS[JOINT_INDEX["l_elbow"]]))  # hl, metres
@@ -64,7 +58,7 @@ def _checked(points: Array) -> Array:
 
 
 def kinetic_features(points: Array, fps: float) -> Array:
-    """Mean squared horizontal and vertical speed and mean acceleration of each joint (`KINDS`) of
+    """Mean squared horizontal and vertical speed and mean acceleration of each joint of
     points [T, K, 3] in metres in the world, y up: [K, 3] in m²/s², m²/s², m/s².
     Means over five frames. Turning about y, moving anywhere, playing backwards change nothing.
     Raises ValueError: fewer than 3 frames, NaN or infinity."""
@@ -202,8 +196,8 @@ def _turning(trajectory: MotionTrajectory) -> Array:
 
 
 def root_kinetic_features(trajectory: MotionTrajectory) -> Array:
-    """`ROOT_KINDS` [5] of a trajectory's position and quaternion: those of one joint, and mean
-    squared turning and tilting, in m²/s², m²/s², m/s², rad²/s², rad²/s².
+    """Of a trajectory's position and quaternion [5]: the features of one joint, and mean squared
+    turning and tilting, in m²/s², m²/s², m/s², rad²/s², rad²/s².
     Raises ValueError as `kinetic_features` does."""
     turning = windowed_mean(_turning(trajectory)) ** 2
     joint = kinetic_features(trajectory.position[:, None], trajectory.fps)[0]
@@ -211,12 +205,8 @@ def root_kinetic_features(trajectory: MotionTrajectory) -> Array:
 
 
 def root_geometric_features(trajectory: MotionTrajectory) -> Array:
-    """Share [12] of frames in which each of `ROOT_RELATIONS` holds.
-
-    Low: below 0.85, high: above 1.03 of the standing height; rising and sinking: 0.2 m/s; fast:
-    2.3 upper arms a second; the four directions, seen from the heading: 0.3 m/s; turning: 1 rad/s;
-    leaning: 20° off upright. Raises ValueError as `kinetic_features` does.
-    """
+    """Share [12] of frames in which each of the relations below holds, in shares of the standing
+    height, m/s as seen from the heading, rad/s. Raises ValueError as `kinetic_features` does."""
     path = _checked(trajectory.position)
     velocity = windowed_mean(np.diff(path, axis=0)) * trajectory.fps  # T-1 3
     height = path[:-1, 1] / REST_PELVIS_HEIGHT
@@ -225,12 +215,13 @@ def root_geometric_features(trajectory: MotionTrajectory) -> Array:
     _, x, _, z = trajectory.quaternion[:-1].T.astype(np.float64)
     upright = 1 - 2 * (x**2 + z**2)  # y of the turned up axis
     rise, speed = velocity[:, 1], np.linalg.norm(velocity, axis=1)
-    relations = (
-        height < 0.85, height > 1.03, rise > 0.2, rise < -0.2, speed > 2.3 * UPPER_ARM,
-        ahead > 0.3, ahead < -0.3, left > 0.3, left < -0.3, turn > 1, turn < -1,
-        upright < np.cos(np.radians(20)),
-    )  # fmt: skip
-    return np.array([holds.mean() for holds in relations])
+    relations = {
+        "low": height < 0.85, "high": height > 1.03, "rising": rise > 0.2, "sinking": rise < -0.2,
+        "fast": speed > 2.3 * UPPER_ARM, "forward": ahead > 0.3, "backward": ahead < -0.3,
+        "to the left": left > 0.3, "to the right": left < -0.3, "turning left": turn > 1,
+        "turning right": turn < -1, "leaning": upright < np.cos(np.radians(20)),
+    }  # fmt: skip
+    return np.array([holds.mean() for holds in relations.values()])
 
 
 # ---------------------------------------------------------------- FID_k, FID_g, Div_k and Div_g

@@ -159,10 +159,6 @@ class Band:
         itself one real motion in ten is outside."""
         return self.low / SLACK, self.high * SLACK
 
-    def tolerates(self, value: float) -> bool:
-        """Whether a value lies within `limits`."""
-        return self.limits[0] <= value <= self.limits[1]
-
 
 @dataclass(frozen=True)
 class Bands:
@@ -314,8 +310,9 @@ class SanityChecker:
             band, value, what = known[name], MEASURES[name](trajectory), name.replace("_", " ")
             real = f"(real {band.low:.4g} to {band.high:.4g})"
             message = f"{what}: {value:.4g} {UNITS[name]} {real}"
-            passed, edges = band.tolerates(value), (band.low, band.high)
-            yield CheckResult(f"band_{name}", passed, value, band.limits, message, edges)
+            low, high = band.limits
+            passed, edges = low <= value <= high, (band.low, band.high)
+            yield CheckResult(f"band_{name}", passed, value, (low, high), message, edges)
 
 
 def _text(value: Figure) -> str:

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from src.shared.metrics.kinetic import (
     HIPS,
-    ROOT_RELATIONS,
     SHOULDERS,
     UPPER_ARM,
     geometric_features,
@@ -254,6 +253,12 @@ def path(forward: float, turn: float, *, height: float = REST_PELVIS_HEIGHT) -> 
     half = turn * time / 2
     quaternion = np.stack((np.cos(half), 0 * half, np.sin(half), 0 * half), -1)
     return MotionTrajectory.from_pose(position, quaternion, time)
+
+
+ROOT_RELATIONS = (
+    "low", "high", "rising", "sinking", "fast", "forward", "backward", "to the left",
+    "to the right", "turning left", "turning right", "leaning",
+)  # fmt: skip
 
 
 def holds(trajectory: MotionTrajectory) -> set[str]:
