@@ -13,6 +13,8 @@ from . import options
 from .console import flag_of, print_json, tell, told
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from ..shared.evaluation.tables import Report
     from ..shared.model.audio.audio_motion_model import AudioMotionModel
     from ..shared.pipelines.song import SongGenerator
@@ -273,17 +275,33 @@ def show_report(report: "Report", *, json: bool) -> None:
 
     Whatever suite it is of.
     """
-    from ..shared.evaluation.tables import draw, heading, intervals_note, markdown, tables
+    from ..shared.evaluation.tables import markdown
 
     if json:
         print_json(report)
     elif sys.stdout.isatty():
         from rich.console import Console
 
-        lines = [*heading(report), intervals_note(report)]
-        draw(lines, tables(report), Console(markup=False))
+        draw(report, Console(markup=False))
     else:
         print(markdown(report))
+
+
+def draw(report: "Report", console: "Console") -> None:
+    """Any report on a terminal: facts line by line, tables."""
+    from rich.table import Table
+
+    from ..shared.evaluation.tables import heading, intervals_note, tables
+
+    for line in filter(None, [*heading(report), intervals_note(report)]):
+        console.print(line, highlight=False)
+    for table in tables(report):
+        drawn = Table(title=table.title, caption=table.note, title_justify="left")
+        for index, name in enumerate(table.header):
+            drawn.add_column(name, justify="right" if index else "left")
+        for row in table.rows:
+            drawn.add_row(*row)
+        console.print(drawn)
 
 
 def keep_and_show(report: "Report", *files: Path, json: bool) -> None:

@@ -7,15 +7,12 @@ the metrics behind it.
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from .stats import Estimate
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 WORDS = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))
 FORMAT_VERSION = 1
@@ -256,18 +253,3 @@ def table_lines(table: Table) -> list[str]:
 def _inert(text: str) -> str:
     """Text that is no HTML, link or border in Markdown, whatever prompt or file it quotes."""
     return re.sub(r"[\\<\[|]", r"\\\g<0>", text)
-
-
-def draw(lines: Iterable[str], parts: Iterable[Table], console: "Console") -> None:
-    """Any report on a terminal: facts line by line, tables."""
-    from rich.table import Table as RichTable
-
-    for line in filter(None, lines):
-        console.print(line, highlight=False)
-    for table in parts:
-        drawn = RichTable(title=table.title, caption=table.note, title_justify="left")
-        for index, name in enumerate(table.header):
-            drawn.add_column(name, justify="right" if index else "left")
-        for row in table.rows:
-            drawn.add_row(*row)
-        console.print(drawn)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import torch
 
+from src.cli.evaluate import draw
 from src.shared.config_schema import TrainEvaluatorConfig
 from src.shared.data.captions.book import CaptionBook
 from src.shared.data.prepare import open_data
@@ -30,9 +31,7 @@ from src.shared.evaluation.suites.text import (
 )
 from src.shared.evaluation.tables import (
     Grid,
-    draw,
     grids,
-    heading,
     markdown,
     printed,
     tables,
@@ -146,7 +145,7 @@ def test_the_report_is_json_markdown_and_tables(held_out: HeldOut, judge: Evalua
     assert {"seen/retrieval", "unseen/obedience", "unseen/scores"} < names
     assert all(len(row) == len(table.header) for table in tables(report) for row in table.rows)
     stream = StringIO()
-    draw(heading(report), tables(report), Console(file=stream, width=200))
+    draw(report, Console(file=stream, width=200))
     assert "frozen pose" in stream.getvalue()
 
 
