@@ -12,6 +12,7 @@ Letters: N phrases of the memory, M that ask, k hits, S songs that ask.
 
 import argparse
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -63,9 +64,9 @@ def compare(memory: MemoryIndex, asked: MemoryIndex, top_k: int) -> list[dict[st
         rows.append(
             {
                 "measure": COLUMNS[name],
-                "found": bootstrap_mean(mine.tolist()).as_dict(),
-                "chance": bootstrap_mean(chance.tolist()).as_dict(),
-                "difference": paired_bootstrap(chance, mine).as_dict(),
+                "found": asdict(bootstrap_mean(mine.tolist())),
+                "chance": asdict(bootstrap_mean(chance.tolist())),
+                "difference": asdict(paired_bootstrap(chance, mine)),
             }
         )
     return rows

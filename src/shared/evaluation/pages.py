@@ -10,7 +10,7 @@ import math
 import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -310,7 +310,7 @@ def _difference(grid: Grid, a: Side, b: Side, seed: int) -> Grid | None:
         cells: dict[str, Cell] = {
             "a": float(np.nanmean(pair[0])),
             "b": float(np.nanmean(pair[1])),
-            "difference": {k: v for k, v in found.as_dict().items() if k != "p"},
+            "difference": {k: v for k, v in asdict(found).items() if k != "p"},
             "p": found.p,
             "better": verdict(column, found),
             "pairs": found.count,

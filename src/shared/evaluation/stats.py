@@ -5,7 +5,7 @@ Letters: N observations (prompts, motions or replications), B resamples.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,10 +24,6 @@ class Estimate:
     low: float
     high: float
     count: int
-
-    def as_dict(self) -> dict[str, float | int]:
-        """Plain numbers for a JSON report."""
-        return asdict(self)
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ class Grid:
 def plain(value: Any) -> Any:
     """JSON has no NaN: the same value with None in its place, and tuples as lists."""
     if isinstance(value, Estimate):
-        return plain(value.as_dict())
+        return plain(asdict(value))
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):

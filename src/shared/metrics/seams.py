@@ -96,8 +96,8 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
 
     Returns:
         seam_pQ, elsewhere_pQ; ratio_pQ with value, low, high (bootstrap over songs), null_low,
-        null_high (marks turned round) and same: 1 lies in the interval; ks likewise with its null
-        and p, the share of turned marks whose distance is as large.
+        null_high (marks turned round); ks likewise with its null and p, the share of turned marks
+        whose distance is as large.
     """
     rng = np.random.default_rng(seed)
     seam, other = split(songs)
@@ -116,11 +116,7 @@ def compare(songs: Sequence[Values], seed: int = 0, n: int = RESAMPLES) -> dict[
         report[f"seam_p{point}"] = float(np.percentile(seam, point))
         report[f"elsewhere_p{point}"] = float(np.percentile(other, point))
         low, high = np.percentile(drawn[:, index], (2.5, 97.5)).tolist()
-        report[f"ratio_p{point}"] = found[index] | {
-            "low": low,
-            "high": high,
-            "same": low <= 1 <= high,
-        }
+        report[f"ratio_p{point}"] = found[index] | {"low": low, "high": high}
     as_far = int((null[:, -1] >= observed[-1]).sum())
     return report | {"ks": found[-1] | {"p": (1 + as_far) / (1 + n)}}
 

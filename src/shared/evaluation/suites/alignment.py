@@ -5,6 +5,7 @@ Letters: N motion beats, M music beats.
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -56,12 +57,12 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
         for name in ("own song", *HELD_AGAINST)
     }
     rows = {
-        name: {column: bootstrap_mean(figures).as_dict() for column, figures in found.items()}
+        name: {column: asdict(bootstrap_mean(figures)) for column, figures in found.items()}
         for name, found in values.items()
     }
     own, above = rows["own song"], dict[str, dict[str, Any]]()
     for name, column in product(HELD_AGAINST, rhythm.COLUMNS[:-1]):  # of no distance
-        gain = bootstrap_mean(values["own song"][column] - values[name][column]).as_dict()
+        gain = asdict(bootstrap_mean(values["own song"][column] - values[name][column]))
         apart = len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]
         above.setdefault(name, {})[column] = {**gain, "apart": apart}
     return {

@@ -382,7 +382,7 @@ def arm_tables(
 
 def difference(measured: Mapping[str, Values], arm: str, base: str, key: str) -> dict[str, Any]:
     """Arm less base over songs; `apart`: its interval excludes 0."""
-    found = paired_bootstrap(measured[base][key], measured[arm][key]).as_dict()
+    found = asdict(paired_bootstrap(measured[base][key], measured[arm][key]))
     return found | {"apart": bool(found["low"] > 0 or found["high"] < 0)}
 
 

@@ -96,7 +96,7 @@ class Requests(Yardstick):
         done, real = self.obeyed(asked.labels, asked.seen), self.real_obeyed
         wanted, theirs = np.array(asked.actions), np.array(self.tags)
         recognizer = self.recognizer
-        instead = np.array(self.shows(asked.seen))
+        instead = np.array(self.judge(asked.seen.features))
         rows = {}
         for action in sorted(set(asked.actions)):
             own = wanted == action
@@ -292,7 +292,7 @@ class Requests(Yardstick):
         right = np.array(judge(self.real.features[held])) == told
         made = self.make([r.text for r in wanted])
         heard = np.array(judge(made.features)) == np.array([r.labels["style"] for r in wanted])
-        walks = [action == "walk" for action in self.shows(made)]
+        walks = [action == "walk" for action in self.judge(made.features)]
         both = {"share": share_of(heard), "real": share_of(right)}
         return {
             "styled walks: style heard": GridRow(both, len(made)),
@@ -340,7 +340,7 @@ class Requests(Yardstick):
         windows = [(at, at + size) for size, places in starts.items() for at in places]
         windows.sort(key=lambda window: window[1])
         pieces = Seen.of([motion.frames(*window) for window in windows])
-        rest = iter(list(zip(self.shows(pieces), pieces.motions, strict=True)))
+        rest = iter(list(zip(self.judge(pieces.features), pieces.motions, strict=True)))
         shows = self.recognizer.shows
         return all(any(shows(part["action"], *piece) for piece in rest) for part in request.parts)
 

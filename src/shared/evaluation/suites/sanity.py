@@ -175,7 +175,7 @@ def verdict(rows: Mapping[str, dict[str, Any]], bands: Bands | None) -> dict[str
     generated = rows["generated"]
     result: dict[str, Any] = {"checks": list(SEVEN)}
     for name, key in (("seven_checks", "passed_seven"), ("whole_suite", "passed")):
-        share = success_rate(generated[key], generated["motions"]).as_dict()
+        share = asdict(success_rate(generated[key], generated["motions"]))
         result[name] = share | {"holds": share["value"] >= PASS_SHARE}
     for name in ("frozen", "untrained"):
         result[f"{name}_fails"] = rows[name]["passed"] == 0

@@ -122,7 +122,7 @@ def selection_report(pool: Pool, largest: int) -> Report:
                for k, v in floor.items()}
         for name, floor in pool.floors.items()
     } | {name: whole for name, (_, whole) in found.items()}  # fmt: skip
-    rows = {name: {k: e.as_dict() for k, e in each.items()} for name, each in estimates.items()}
+    rows = {name: {k: asdict(e) for k, e in each.items()} for name, each in estimates.items()}
     (one, _), (many, _) = found["best of 1"], found[f"best of {largest}"]
     gains: dict[str, dict[str, Any]] = {}
     for figure in pool.figures:
@@ -136,7 +136,7 @@ def selection_report(pool: Pool, largest: int) -> Report:
             "apart": bool(several and low["high"] < high["low"]),
         }
         if key in many:
-            gain = bootstrap_mean(many[key] - one[key]).as_dict()
+            gain = asdict(bootstrap_mean(many[key] - one[key]))
             gains[key]["difference"] = gain
             # Replications share their prompts: alone they say nothing of other prompts.
             gains[key]["apart"] &= gain["low"] > 0 if higher else gain["high"] < 0

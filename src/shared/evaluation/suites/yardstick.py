@@ -139,17 +139,13 @@ class Yardstick:
         values = (self.data.features(record) for record in records)
         return Seen.of([as_asked(each, self.longest) for each in values])
 
-    def shows(self, seen: Seen) -> list[str]:
-        """The action that the judge sees in each."""
-        return self.judge(seen.features)
-
     def obeyed(self, labels: Sequence[dict[str, str]], seen: Seen) -> np.ndarray:
         """Whether each motion does what its labels say: the action, and which way or side [N]."""
-        rows = zip(labels, self.shows(seen), seen.motions, strict=True)
+        rows = zip(labels, self.judge(seen.features), seen.motions, strict=True)
         shows = self.recognizer.shows
         return np.array([shows(w.get("action", ""), f, m) and shown([w], m) for w, f, m in rows])
 
-    @property
+    @cached_property
     def real_obeyed(self) -> np.ndarray:
         """The same of the held-out clips under their own labels."""
         return self.obeyed([record.labels for record in self.records], self.real)
