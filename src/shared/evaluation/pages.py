@@ -13,6 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from html import escape
 from pathlib import Path
+from string import Template
 from typing import Any
 
 import numpy as np
@@ -41,11 +42,7 @@ from .tables import (
 )
 
 REPORT = "report.json"
-STYLE = Path(__file__).with_name("pages.css")
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:;"
-    " media-src data:"
-)
+PAGE, STYLE = (Path(__file__).with_name(f"pages.{ending}") for ending in ("html", "css"))
 WIDTH, LABEL, LINE, TOP, BOTTOM = 284, 92, 18, 22, 20
 COLOURS = {
     "real": "#2f9150", "chance": "#8a92a0", "frozen pose": "#8a92a0", "untrained": "#c8692a",
@@ -93,14 +90,9 @@ def html_page(report: dict[str, Any], folder: Path) -> str:
         f'<a href="#table-{index}">{escape(grid.title.split(" (")[0])}</a>'
         for index, grid in enumerate(tables)
     )
-    title, style = escape(report["title"]), STYLE.read_text(encoding="utf-8")
-    return (
-        f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">'
-        f'<link rel="icon" href="data:,"><title>{title}</title><style>\n{style}</style></head>'
-        f"<body><h1>{title}</h1><nav>{links}</nav>\n" + "\n".join(sections) + "\n</body></html>\n"
-    )
+    page, style = (file.read_text(encoding="utf-8") for file in (PAGE, STYLE))
+    parts = {"title": escape(report["title"]), "links": links, "sections": "\n".join(sections)}
+    return Template(page).substitute(parts, style=style)
 
 
 def _table(index: int, grid: Grid) -> str:
