@@ -52,19 +52,15 @@ def alignment_rows(dances: Sequence[Danced], seed: int) -> dict[str, Any]:
     """
     draws = [np.random.default_rng([seed, 2, index]) for index in range(len(dances))]
     songs = [song_scores(*each, dances, rng) for each, rng in zip(dances, draws, strict=True)]
-    values = {
-        name: {key: np.array([getattr(s[name], key) for s in songs]) for key in rhythm.COLUMNS}
+    rows = {
+        name: {c: bootstrap_mean([getattr(s[name], c) for s in songs]) for c in rhythm.COLUMNS}
         for name in ("own song", *HELD_AGAINST)
     }
-    rows = {
-        name: {column: asdict(bootstrap_mean(figures)) for column, figures in found.items()}
-        for name, found in values.items()
-    }
-    own, above = rows["own song"], dict[str, dict[str, Any]]()
+    own, above = rows["own song"], {name: dict[str, dict[str, Any]]() for name in HELD_AGAINST}
     for name, column in product(HELD_AGAINST, rhythm.COLUMNS[:-1]):  # of no distance
-        gain = asdict(bootstrap_mean(values["own song"][column] - values[name][column]))
-        apart = len(dances) >= FEW and own[column]["low"] > rows[name][column]["high"]
-        above.setdefault(name, {})[column] = {**gain, "apart": apart}
+        gains = [getattr(s["own song"], column) - getattr(s[name], column) for s in songs]
+        apart = len(dances) >= FEW and own[column].low > rows[name][column].high
+        above[name][column] = asdict(bootstrap_mean(gains)) | {"apart": apart}
     return {
         "songs": len(dances),
         "motion_beats": _per_second([(beats, dance.seconds) for dance, beats in dances]),

@@ -32,7 +32,7 @@ def dances(kind: str, number: int = 30) -> list[Danced]:
 def test_on_the_beat_stands_out_against_everything() -> None:
     report = alignment_rows(dances("on"), seed=0)
     own = report["rows"]["own song"]
-    assert own["motion_to_music"]["value"] > 0.95 and own["f"]["value"] > 0.95
+    assert own["motion_to_music"].value > 0.95 and own["f"].value > 0.95
     for name in HELD_AGAINST:
         for cell in report["above"][name].values():
             assert cell["low"] > 0.5 and cell["apart"]
@@ -55,14 +55,20 @@ def test_standing_still_scores_nothing_but_counts() -> None:
     report = alignment_rows(dances("never"), seed=0)
     assert report["without_beats"] == report["songs"] == 30
     assert report["motion_beats"] == 0.0
-    assert report["rows"]["own song"]["f"]["value"] == 0.0
-    assert report["rows"]["own song"]["f"]["count"] == 30
-    assert report["rows"]["own song"]["distance"]["count"] == 0
+    assert report["rows"]["own song"]["f"].value == 0.0
+    assert report["rows"]["own song"]["f"].count == 30
+    assert report["rows"]["own song"]["distance"].count == 0
 
 
 def test_phrases_of_one_song_are_no_other_song() -> None:
     one = [danced("same", beats, dance.beats) for dance, beats in dances("on", 4)]
-    assert alignment_rows(one, seed=0)["rows"]["another song"]["f"]["count"] == 0
+    assert alignment_rows(one, seed=0)["rows"]["another song"]["f"].count == 0
+
+
+def test_without_songs_nothing_is_said() -> None:
+    report = alignment_rows([], seed=0)
+    assert report["songs"] == 0 and report["rows"]["own song"]["f"].count == 0
+    assert not report["above"]["chance"]["f"]["apart"]
 
 
 def test_beats_are_counted_a_second() -> None:
