@@ -88,8 +88,6 @@ class JointFrechet:
 
     def moments(self, text: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mean and covariance of pairs [N, D] in the reduced joint space."""
-        if len(text) != len(motion):
-            raise ValueError(f"{len(text)} texts and {len(motion)} motions must be aligned")
         return _moments(np.concatenate([self.text_axes(text), self.motion_axes(motion)], axis=1))
 
     def __call__(self, text: np.ndarray, motion: np.ndarray) -> float:

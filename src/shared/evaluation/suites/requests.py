@@ -126,10 +126,7 @@ class Requests(Yardstick):
         return found
 
     def _distances(
-        self,
-        labels: Sequence[Labels],
-        sets: Sequence[Seen],
-        records: Sequence[ClipRecord] = (),
+        self, labels: Sequence[Labels], sets: Sequence[Seen], records: Sequence[ClipRecord] = ()
     ) -> dict[str, Cell]:
         """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each,
         of another take; averages over draws, which take turns with the sets of motions."""

@@ -17,15 +17,7 @@ import numpy as np
 
 from ...errors import UserError
 from ...formats.preview.drawing import new_figure, save_figure
-from ...metrics.sanity import (
-    MEASURES,
-    SEVEN,
-    UNITS,
-    Bands,
-    SanityChecker,
-    frozen,
-    sanity_row,
-)
+from ...metrics.sanity import MEASURES, SEVEN, UNITS, Bands, SanityChecker, frozen, sanity_row
 from ...model.audio.audio_motion_model import AudioMotionModel
 from ...motion.trajectory import MotionTrajectory
 from ...pipelines.song import SongCondition, SongGenerator, finished
