@@ -483,15 +483,17 @@ def _differ(first: Reading, second: Reading, sure: float = SURE) -> bool:  # as 
 
 
 def _best(text: str, cuts: Iterable[Span], read: Read) -> tuple[str, str] | None:
-    """The halves of a text that tell most surely of two actions, None where none do."""
-    best, sure = None, SURE
+    """The halves of a text that tell most surely of two actions, both known if any are; None where
+    none do."""
+    best, most = None, (False, SURE)
     for stop, start in cuts:
         left, right = trimmed(text[:stop]), trimmed(text[start:])
         first, second = (read(measured(half).text) for half in (left, right))
         if second is GOT_UP and _differ(first, second):  # "se | pone de pie" is surer, and wrong
             return left, right
-        if _differ(first, second, sure):
-            best, sure = (left, right), min(first.certainty, second.certainty)
+        rank = first.known and second.known, min(first.certainty, second.certainty)
+        if _differ(first, second) and rank > most:
+            best, most = (left, right), rank
     return best
 
 

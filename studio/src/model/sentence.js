@@ -496,12 +496,13 @@ export class SentenceReader {
 
   /** The halves of a text that tell most surely of two actions, null where none do. */
   best(text, cuts) {
-    let found = null, sure = SURE;
+    let found = null, most = SURE; // both known, if any are
     for (const [stop, start] of cuts) {
       const halves = [text.slice(0, stop), text.slice(start)].map((half) => this.trimmed(half));
       const [first, second] = halves.map((half) => this.reading(half));
       if (second === GOT_UP && differ(first, second)) return halves; // "se | pone de pie" is surer, and wrong
-      if (differ(first, second, sure)) [found, sure] = [halves, Math.min(first.certainty, second.certainty)];
+      const rank = Math.min(first.certainty, second.certainty) + (first.known && second.known ? 1e6 : 0);
+      if (differ(first, second) && rank > most) [found, most] = [halves, rank];
     }
     return found;
   }
