@@ -260,7 +260,8 @@ def without_hand(text: str, read: Read) -> Clause | None:
         return None
     clause, side = measured(closed(without(text, said))), side_of(said[0])
     whole = read(text)
-    if whole.surely == HOP[0]:  # without a foot it is a jump
+    if whole.action == HOP[0] and (whole.surely or words.footed.search(said[0])):
+        # without a foot it is a jump
         hops = measured(closed(without(text, said, HOP[1])))
         clause = hops if read(hops.text).surely == HOP[0] else replace(clause, text=HOP[2])
     own, legs = read(clause.text), words.footed.search(said[0]) is not None

@@ -26,7 +26,7 @@ from ..metrics.measurements import (
 )
 from ..model.clip.out_of_domain import TWINS, ScopeResult
 from ..model.diffusion import Sampling
-from ..model.generation.constraint import Constraint, lead_height
+from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import Progress, TextToMotion
 from ..model.noise import TRIES, derived_seed, retry_seeds
 from ..motion.features import (
@@ -44,7 +44,7 @@ from ..tensors import Tensor, torch
 from .clause import GOING, REPEATED, Clause, Reading, without_subject
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
-from .sentence import HALT, RISEN, clauses, whole
+from .sentence import HALT, RISEN, UNDEAD, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
@@ -253,7 +253,8 @@ class SentenceGenerator:
         """The columns of the root row that have no mean in a text's motion: who does not leave his
         place faces one way, and ends where he began, unless something comes before."""
         if self.scope is None or self._nearest(text) not in self.scope.still:
-            return (YAW_RATE,) if self._by_arms(text) else ()
+            undead = self._nearest(text) == UNDEAD and side_of(text) == "both"  # all of them curl
+            return (YAW_RATE,) if undead or self._by_arms(text) else ()
         return (FORWARD, LATERAL, YAW_RATE) if alone else (YAW_RATE,)
 
     def _rested(self, motion: Motion, *texts: str, held: bool = False) -> Motion:
@@ -478,18 +479,18 @@ class SentenceGenerator:
             first = STOP if stands else TURN_REST * (start > 0 and part.metres == 0)
             until = start + round(first * fps)  # who went comes to a stop first
             given.known[start:until, ROOT_ROW, [FORWARD, LATERAL]] = False
-        low = [self._nearest(part.seat or part.text) == "sit" for part in parts]
-        for at, join in enumerate(starts[1:-1]):  # who gets up
-            if low[at] and not low[at + 1]:
-                begin, end = (
-                    self.ways.gait(part.text, sampling).height for part in parts[at : at + 2]
-                )
-                led |= end > begin and lead_height(given, join, begin, end, fps)
         if parts[0].held:  # nothing comes before
             given.known[: starts[1]] = True
+        low = [self._nearest(part.seat or part.text) == "sit" for part in parts]
+        passages = [  # who sits gets up by a way of his own, too
+            replace(each.under(part.seat), low=sits or was)
+            for (each, _), part, sits, was in zip(
+                stretches, parts, low, [False, *low], strict=False
+            )
+        ]
         features, spans = spanned_features(
             self.generator,
-            [each.under(part.seat) for (each, _), part in zip(stretches, parts, strict=True)],
+            passages,
             constraint=(lambda start, stop: given.window(start, stop, fps=fps)) if led else None,
             window=self._window(),
             overlap=REPEATED_OVERLAP if any(part.count > 1 for part in parts) else OVERLAP,
@@ -513,8 +514,8 @@ class SentenceGenerator:
         motion = self.generator.post_processor(features, None, foot_lock=foot_lock)
         motion = self._rested(motion, parts[0].text, parts[-1].text, held=parts[-1].held)
         for (start, stop), part in zip(spans, parts, strict=True):
-            action = self._nearest(part.text)
-            if action == "clap" and not (part.meanwhile or limbs):
+            action = self._nearest(part.meanwhile or part.text)
+            if action == "clap" and not limbs:
                 motion = hands_meet(motion, start, stop)
             elif part.count > 1 and self._by_arms(part.text) and action not in REPETITIONS:
                 # nothing but arms that hang in between tells one wave from the next

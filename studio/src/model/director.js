@@ -8,12 +8,12 @@ import { FPS } from "../body/skeleton.js";
 import { handsMeet, postProcess, restToRest } from "../body/whole.js";
 import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
-import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause, RISEN, SentenceReader, STANDS, surely, WORD } from "./sentence.js";
+import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause, RISEN, SentenceReader, STANDS, surely, UNDEAD, WORD } from "./sentence.js";
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, DOWN = 0.15, DOWN_SPEED = 0.43, DOWN_AHEAD = 6, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
 const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
@@ -229,12 +229,16 @@ export class Director {
       led ||= stands || Boolean(stretch.given);
       at += stretch.passage.frames;
     }
-    const down = await this.ledDown(given, parts, starts, seed);
     if (parts[0].held) given.known.fill(1, 0, passages[0].frames * WIDTH); // nothing comes before
-    const under = passages.map((passage, i) => (parts[i].seat ? { ...passage, text: parts[i].seat, afresh: this.beginsStanding(parts[i].seat), window: undefined, miss: undefined, mirrored: false } : passage));
+    const sits = parts.map(({ seat, text: said }) => this.nearest(seat || said) === "sit");
+    const under = passages.map((passage, i) => ({
+      ...passage,
+      ...(parts[i].seat ? { text: parts[i].seat, afresh: this.beginsStanding(parts[i].seat), window: undefined, miss: undefined, mirrored: false } : {}),
+      low: sits[i] || Boolean(sits[i - 1]), // who sits gets up by a way of his own, too
+    }));
     let { features, spans } = await spannedFeatures(this.sampler, under, seed, {
       ...options,
-      constraint: led || down ? given : null,
+      constraint: led ? given : null,
       window: this.window(),
       overlap: parts.some(({ count }) => count > 1) ? REPEATED_OVERLAP : OVERLAP,
     });
@@ -259,32 +263,11 @@ export class Director {
     let rested = this.rested(motion, [parts[0].text, parts.at(-1).text], parts.at(-1).held);
     for (const [i, { count, text, meanwhile }] of parts.entries()) {
       const [start, stop] = spans[i];
-      if (this.nearest(text) === "clap" && !meanwhile) rested = handsMeet(rested, start, stop);
+      if (this.nearest(meanwhile || text) === "clap") rested = handsMeet(rested, start, stop);
       else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS))
         rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => start + Math.floor(((stop - start) * (k + 1)) / count)));
     }
     return { motion: { ...rested, text }, spans };
-  }
-
-  /** Where somebody gets up, the pelvis does so as fast as people do; whether anybody does. */
-  async ledDown(given, parts, starts, seed) {
-    const low = ({ seat, text }) => this.nearest(seat || text) === "sit";
-    let found = false;
-    for (let i = 1; i < parts.length; i++) {
-      const pair = parts.slice(i - 1, i + 1), heights = [];
-      if (!low(pair[0]) || low(pair[1])) continue;
-      for (const { text } of pair) heights.push((await naturalGait(this.sampler, text, seed)).height);
-      const up = heights[1] - heights[0], start = Math.max(starts[i] - DOWN_AHEAD, 1);
-      const frames = Math.min(round((up / DOWN_SPEED) * FPS), framesOf(given.values) - start);
-      if (up < DOWN) continue;
-      for (let t = 0; t < frames; t++) {
-        const way = frames > 1 ? t / (frames - 1) : 0, at = (start + t) * WIDTH + ROOT + HEIGHT;
-        if (!given.known[at]) given.values[at] = heights[0] + up * way ** 3 * (10 - 15 * way + 6 * way * way);
-        given.known[at] = 1;
-      }
-      found = true;
-    }
-    return found;
   }
 
   /** Frames of a window: no more than the model has seen, where two overlaps fit in that. */
@@ -450,7 +433,8 @@ export class Director {
 
   /** The columns of the root row that have no mean in a text's motion. */
   steady(text, alone = true) {
-    if (!this.scope.meta.still?.includes(this.nearest(text))) return this.byArms(text) ? [YAW_RATE] : [];
+    const undead = this.nearest(text) === UNDEAD && this.reader.sideOf(text) === "both"; // all of them curl
+    if (!this.scope.meta.still?.includes(this.nearest(text))) return undead || this.byArms(text) ? [YAW_RATE] : [];
     return alone ? [FORWARD, LATERAL, YAW_RATE] : [YAW_RATE];
   }
 

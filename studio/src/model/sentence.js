@@ -13,7 +13,7 @@ const PLAINLY = { // what whole patterns ask for, and words of a tower that know
   falls: [{ action: "die", certainty: 3, arms: false, known: true }, "dies"],
 };
 const LIES = ["die", "get-up", "lie-down", "sleep", "pick-up"], CROUCHES = ["squat", "crouch-walk", "crouch"]; // what falls, and who crouches, are taken for
-const UNDEAD = "zombie"; // the action that is somebody
+export const UNDEAD = "zombie"; // the action that is somebody
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor", "lie-down", "sleep"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
@@ -207,7 +207,7 @@ export class SentenceReader {
     if (!said || this.first.denies.test(text.slice(0, said.index))) return null;
     const whole = this.read(text), side = this.sideOf(said[0]), [hop, foot, hops] = HOP;
     let clause = this.measured(closed(this.without(text, said)));
-    if (surely(whole) === hop) { // without a foot it is a jump
+    if (whole.action === hop && (surely(whole) || this.first.footed.test(said[0]))) { // without a foot it is a jump
       const other = this.measured(closed(this.without(text, said, foot)));
       clause = surely(this.read(other.text)) === hop ? other : { ...clause, text: hops };
     }

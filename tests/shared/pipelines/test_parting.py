@@ -285,7 +285,8 @@ STAYING = [
     ("sneaks, staying low", "sneaks, staying low"),
     ("a boxer punches, keeping his hands up", "a boxer punches / keeping his hands up"),
     ("a woman is sitting down on a bench and claps",
-     "a woman is sitting down on a bench 1.5 / a woman is sitting down on a bench: claps"),
+     "stands still 0.8 / a woman is sitting down on a bench 1.5 /"
+     " a woman is sitting down on a bench: claps"),
     ("kneels and prays, then claps", "kneels 1.5 / kneels: prays / kneels: claps"),
     ("kneeling, he waves", "kneels: he waves"),
     ("winkt im Sitzen", "sits: winkt"),
@@ -467,3 +468,32 @@ def test_who_crouches_stays_there_and_does_not_sneak_away(
 def test_japanese_words_are_not_parted_as_chinese_ones(sentences: SentenceGenerator):
     (clause,) = sentences.clauses("忍者が後ろに下がりながら手裏剣を投げる")
     assert clause.text == "忍者が後ろに下がりながら手裏剣を投げる"
+
+
+@pytest.mark.parametrize(
+    ("sentence", "parts"),
+    [
+        ("After a wave she walks off.", ["a wave", "she walks off"]),
+        ("do a backflip and then pose like a superhero",
+         ["do a backflip", "put both hands on your hips"]),
+        ("he throws a punch", ["he punches"]),
+    ],
+)  # fmt: skip
+def test_halves_are_those_that_are_known(
+    sentence: str, parts: list[str], sentences: SentenceGenerator
+):
+    assert [clause.text for clause in sentences.clauses(sentence)] == parts
+    assert sentences.scope_warnings([sentence]) == [None]
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    ["hops on the left foot", "hüpft auf dem linken Fuß", "saute sur le pied gauche",
+     "salta sobre el pie izquierdo", "salta a la pata coja con la izquierda", "左足でけんけんする",
+     "用左脚跳", "左脚单脚跳"],
+)  # fmt: skip
+def test_hops_on_the_left_foot_are_mirrored(sentence: str, sentences: SentenceGenerator):
+    (clause,) = sentences.clauses(sentence)
+    assert clause.mirrored
+    assert sentences.generator.read([clause.text])[0].nearest[0] == "hop"  # type: ignore[union-attr]
+    assert sentences.scope_warnings([sentence]) == [None]

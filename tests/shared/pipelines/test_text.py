@@ -821,3 +821,28 @@ def test_who_does_not_show_a_gesture_behind_another_stops_before_it(
     assert motion.seconds in (8.5, 9.5)
     [whole] = sentences.generate(["turns left, then kicks"], seed=0)  # needs none
     assert whole.seconds < 8.0
+
+
+def test_feet_stay_where_they_are_while_somebody_gets_up(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    [motion] = sentences.generate(["sits down, then stands up"], seed=0)
+    at = motion.positions()
+    pelvis, feet = at[:, 0], at[:, [JOINT_INDEX["l_ankle"], JOINT_INDEX["r_ankle"]]]
+    low = pelvis[:, 1] < 0.7
+    assert low.sum() > 60 and not low[-30:].any()
+    assert abs(feet[-1, 1] - feet[0, 1]).max() < 0.15  # the right one stays, the left was lifted
+    assert np.abs(pelvis[-1] - pelvis[0]).max() < 0.15  # forward over the feet, as it went back
+
+
+def test_hands_meet_of_who_claps_meanwhile(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    [motion] = sentences.generate(["walks while clapping"], seed=0)
+    at = motion.positions()
+    gap = np.linalg.norm(at[:, JOINT_INDEX["l_wrist"]] - at[:, JOINT_INDEX["r_wrist"]], axis=1)
+    assert gap.min() < 0.12 and measure(motion).claps >= 2
+
+
+def test_a_zombie_goes_straight_on(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    motions = sentences.generate(["walk like a zombie"], num_samples=2, seed=0)
+    assert max(abs(measure(each).yaw) for each in motions) < 0.2

@@ -27,7 +27,7 @@ import numpy as np
 
 from ...config_loader import did_you_mean
 from ...errors import UsageError, UserError
-from ...motion.features import HEIGHT, ROOT_ROW, mirror_features, world_joints
+from ...motion.features import mirror_features, world_joints
 from ...motion.rotations import gaussian_smooth
 from ...tensors import Tensor, torch
 from ..noise import NoiseStream
@@ -36,8 +36,6 @@ STEP = 0.02  # root mean square of one move, in standard deviations of the data
 MOVES = 3  # a prediction
 SMOOTHING = 2.5  # frames, standard deviation of the kernel over the gradient
 SLOW = 0.05  # m/s, v0: below it speed hardly counts, a standing body is not shaken
-DOWN, DOWN_SPEED = 0.15, 0.43  # metres and m/s, in the mean, of a pelvis that sits down
-DOWN_AHEAD = 6  # frames, in which it goes hardly down
 BEYOND = 1.5  # beats; further than this from the first and the last one there is no beat to meet
 
 
@@ -158,22 +156,6 @@ class Constraint:
         """Raw features [T, K, C] with the known entries as they were given."""
         rows = features.shape[1]
         return torch.where(self.known[:, :rows], self.values[:, :rows], features)
-
-
-def lead_height(given: Constraint, frame: int, begin: float, end: float, fps: float) -> bool:
-    """From just before a frame on the pelvis is known to go from one height to another, metres, as
-    fast as people sit down, where it was not known; whether they lie so far apart."""
-    if abs(end - begin) < DOWN:
-        return False
-    start = max(frame - DOWN_AHEAD, 1)
-    way = np.linspace(0.0, 1.0, min(round(abs(end - begin) / DOWN_SPEED * fps), len(given) - start))
-    height = begin + (end - begin) * way**3 * (10 - 15 * way + 6 * way * way)
-    rows = slice(start, start + len(way))
-    free = ~given.known[rows, ROOT_ROW, HEIGHT]
-    column = given.values[rows, ROOT_ROW, HEIGHT]
-    column[free] = torch.as_tensor(height, dtype=column.dtype)[free]
-    given.known[rows, ROOT_ROW, HEIGHT] = True
-    return True
 
 
 @dataclass(frozen=True, eq=False)
