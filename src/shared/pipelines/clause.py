@@ -285,6 +285,16 @@ def without_subject(text: str, read: Read) -> str:
     return text
 
 
+def is_somebody(text: str) -> bool:
+    """Whether a text begins with a word for a person, which tells nothing of how he moves."""
+    return all_words().subject.match(text) is not None
+
+
+def bows_head(text: str) -> bool:
+    """Whether a text says that the head is down meanwhile."""
+    return all_words().bowed.search(text) is not None
+
+
 def is_told_of(text: str) -> bool:
     """Whether a text says in English of somebody behind an article what he does."""
     cuts = blanks(text)[1:3]

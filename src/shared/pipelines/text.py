@@ -39,16 +39,31 @@ from ..motion.features import (
     without_drift,
 )
 from ..motion.motion import Motion
-from ..motion.postprocess.whole import hands_meet, rest_to_rest, until_landed
+from ..motion.postprocess.whole import hands_meet, head_bowed, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
-from .clause import GOING, REPEATED, Clause, Reading, without_subject
+from .clause import (
+    GOING,
+    REPEATED,
+    Clause,
+    Reading,
+    bows_head,
+    is_somebody,
+    without_subject,
+)
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
 from .sentence import HALT, RISEN, UNDEAD, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
-from .words import STANDS, is_somebody, says_number, says_often, side_of, turns_head, unlearned
+from .words import (
+    STANDS,
+    says_number,
+    says_often,
+    side_of,
+    turns_head,
+    unlearned,
+)
 
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
@@ -148,8 +163,8 @@ class SentenceGenerator:
                 progress=lambda done, total: told(max(done, sum(map(len, made.values())))),
             )
             one = iter(found)
-            return {i: [self._rested(next(one), prompts[i]) for _ in range(num_samples)]
-                    for i in rows}  # fmt: skip
+            return {i: [self._bowed(self._rested(next(one), prompts[i]), prompts[i])
+                        for _ in range(num_samples)] for i in rows}  # fmt: skip
 
         scale, seeds = guidance_scale, retry_seeds(seed)
         while plain and (again := next(seeds, None)) is not None:
@@ -264,6 +279,12 @@ class SentenceGenerator:
         if self.scope is not None and {*actions} & {*self.scope.gestures}:
             motion = rest_to_rest(motion, held=held)
         return hands_meet(motion, 0, motion.num_frames) if actions == ["clap"] else motion
+
+    @staticmethod
+    def _bowed(motion: Motion, text: str, start: int = 0, stop: int | None = None) -> Motion:
+        """The motion with its head down in some frames, if a text says so of them."""
+        stop = motion.num_frames if stop is None else stop
+        return head_bowed(motion, start, stop) if bows_head(text) else motion
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows a text's nearest action, on its side; None: it cannot be seen."""
@@ -521,6 +542,7 @@ class SentenceGenerator:
                 # nothing but arms that hang in between tells one wave from the next
                 joins = [start + (stop - start) * k // part.count for k in range(1, part.count)]
                 motion = rest_to_rest(motion, joins)
+            motion = self._bowed(motion, part.text, start, stop)
         return replace(motion, text=text), spans
 
     def _window(self) -> int:

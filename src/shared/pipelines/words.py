@@ -306,10 +306,16 @@ class Words:
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         self.piece = Rare(_any(all_of("pieces")), all_of("pieces"))
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
-        keys = "in_place", "off", "many", "crouches", "head_turns", "tempos"
-        self.in_place, self.off, self.many, self.crouches, self.head_turns, self.tempo = (
-            Rare(_any(all_of(key)), all_of(key)) for key in keys
-        )
+        keys = "in_place", "off", "many", "crouches", "bowed", "head_turns", "tempos"
+        (
+            self.in_place,
+            self.off,
+            self.many,
+            self.crouches,
+            self.bowed,
+            self.head_turns,
+            self.tempo,
+        ) = (Rare(_any(all_of(key)), all_of(key)) for key in keys)
         low = {said: does for t in tables for does, many in t["postures"].items() for said in many}
         self.posture = Rare(rf"{_any(low)}(?:\s*{_COMMAS})?", [*low])
         self.postures = {bare(said): does for said, does in low.items()}
@@ -551,11 +557,6 @@ def value_of(text: str) -> float:
 
 def _value_of_sign(sign: str) -> int:
     return 2 if sign == "两" else _ONES.index(sign) + 1
-
-
-def is_somebody(text: str) -> bool:
-    """Whether a text begins with a word for a person, which tells nothing of how he moves."""
-    return all_words().subject.match(text) is not None
 
 
 def says_often(text: str) -> bool:

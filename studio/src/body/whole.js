@@ -140,6 +140,24 @@ function lacking(gap) {
   return closer;
 }
 
+// ---------------------------------------------------------------- a bowed head
+
+const BOWED = (45 * Math.PI) / 180, BOW_FADE = 0.5;
+
+/** A head that is lower in frames [start, stop), and goes there and back where others come before and after. */
+export function headBowed(motion, start = 0, stop = motion.frames) {
+  const quaternions = motion.quaternions.slice(), fade = Math.round(BOW_FADE * motion.fps);
+  for (let t = start; t < stop; t++) {
+    const share = Math.min(start > 0 ? (t - start + 1) / fade : 1, stop < motion.frames ? (stop - t) / fade : 1, 1);
+    const half = (share * share * (3 - 2 * share) * BOWED) / 4, [c, s] = [Math.cos(half), Math.sin(half)];
+    for (const joint of ["neck", "head"]) {
+      const at = (t * JOINTS + INDEX[joint]) * 4, [w, x, y, z] = quaternions.subarray(at, at + 4);
+      quaternions.set([w * c - x * s, w * s + x * c, y * c + z * s, z * c - y * s], at); // about its own x
+    }
+  }
+  return { ...motion, quaternions };
+}
+
 // ---------------------------------------------------------------- seams
 
 export const FADE = 10;

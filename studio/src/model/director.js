@@ -5,7 +5,7 @@ import { cut, decodeFeatures, FORWARD, framesOf, framesOfMotion, hastened, HEIGH
 import { round } from "../body/curves.js";
 import { ACTIONS, endsAtRest, measure, REPETITIONS, repetitions, sideCheck } from "../body/measurements.js";
 import { FPS } from "../body/skeleton.js";
-import { handsMeet, postProcess, restToRest } from "../body/whole.js";
+import { handsMeet, headBowed, postProcess, restToRest } from "../body/whole.js";
 import { beside, chosenJoints, fill, held, keepEnds, NO_TEXT, redo } from "./edit.js";
 import { naturalGait, naturalSway, pathConstraint, swaying, timePath } from "./path.js";
 import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause, RISEN, SentenceReader, STANDS, surely, UNDEAD, WORD } from "./sentence.js";
@@ -171,7 +171,8 @@ export class Director {
       const guidance = (best === null ? 1 : INSISTING) * this.settings.guidance;
       const features = await this.sampler.sample(said, frames, trial, null, { guidance });
       removeDrift(features, this.steady(said));
-      const motion = this.rested(postProcess(features, this.settings.post, { text: prompt }), [said]);
+      const rested = this.rested(postProcess(features, this.settings.post, { text: prompt }), [said]);
+      const motion = this.reader.bowsHead(said) ? headBowed(rested) : rested;
       options.told?.(frames);
       const does = this.does(said, motion);
       if (best === null || does) best = motion;
@@ -266,6 +267,7 @@ export class Director {
       if (this.nearest(meanwhile || text) === "clap") rested = handsMeet(rested, start, stop);
       else if (count > 1 && this.byArms(text) && !(this.nearest(text) in REPETITIONS))
         rested = restToRest(rested, Array.from({ length: count - 1 }, (_, k) => start + Math.floor(((stop - start) * (k + 1)) / count)));
+      if (this.reader.bowsHead(text)) rested = headBowed(rested, start, stop);
     }
     return { motion: { ...rested, text }, spans };
   }

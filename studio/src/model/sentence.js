@@ -626,6 +626,11 @@ export class SentenceReader {
     return this.first.often.test(text) || this.first.times.test(text);
   }
 
+  /** Whether a text says that the head is down meanwhile. */
+  bowsHead(text) {
+    return this.first.bowed.test(text);
+  }
+
   turnsHead(text) {
     return this.first.head_turns.test(text);
   }

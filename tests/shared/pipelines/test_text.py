@@ -846,3 +846,24 @@ def test_a_zombie_goes_straight_on(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     motions = sentences.generate(["walk like a zombie"], num_samples=2, seed=0)
     assert max(abs(measure(each).yaw) for each in motions) < 0.2
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["walks, head down", "camina con la cabeza gacha", "il marche la tête baissée",
+     "er geht mit gesenktem Kopf", "うつむいて歩く", "他低着头走路"],
+)  # fmt: skip
+def test_a_head_is_down_where_that_is_said(starter: TextToMotion, text: str):
+    def pitch(motion: Motion) -> float:
+        joints = motion.positions()
+        neck = joints[:, JOINT_INDEX["head"]] - joints[:, JOINT_INDEX["neck"]]
+        heading = motion_heading(motion)
+        ahead = neck[:, 0] * np.sin(heading) + neck[:, 2] * np.cos(heading)
+        return float(np.degrees(np.arctan2(ahead, neck[:, 1])).mean())
+
+    sentences = SentenceGenerator(starter)
+    [motion] = sentences.generate([text], seed=0)
+    assert pitch(motion) > 12.0
+    [both] = sentences.generate([f"a person walks, then {text}"], seed=0)
+    half = both.num_frames // 2
+    assert pitch(both.frames(half + 20, both.num_frames)) > pitch(both.frames(0, half)) + 8.0

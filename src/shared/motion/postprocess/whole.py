@@ -297,6 +297,27 @@ def _lacking(gap: np.ndarray) -> np.ndarray:
     return lacking
 
 
+BOWED = math.radians(45.0)  # of the neck and of the head on it, half each
+BOW_FADE = 0.5  # seconds until it is so, and is no more, beside what else is done
+
+
+def head_bowed(motion: Motion, start: int, stop: int) -> Motion:
+    """The motion with a head that is lower by BOWED in frames [start, stop), and goes there and
+    back where others come before and after."""
+    frames, fade = np.arange(start, stop), round(BOW_FADE * motion.fps)
+    down = (frames - start + 1) / fade if start > 0 else np.ones(len(frames))
+    up = (stop - frames) / fade if stop < motion.num_frames else np.ones(len(frames))
+    share = np.minimum(down, up).clip(0.0, 1.0)
+    half = torch.as_tensor(share * share * (3.0 - 2.0 * share) * BOWED / 4, dtype=torch.float32)
+    still = torch.zeros_like(half)
+    turn = torch.stack((torch.cos(half), torch.sin(half), still, still), -1)  # about their own x
+    quaternions = motion.quaternions.copy()
+    for joint in (JOINT_INDEX["neck"], JOINT_INDEX["head"]):
+        own = torch.as_tensor(quaternions[start:stop, joint])
+        quaternions[start:stop, joint] = quaternion_multiply(own, turn).numpy()
+    return replace(motion, quaternions=quaternions)
+
+
 SETTLED = 0.1  # seconds of a foot that has landed
 
 
