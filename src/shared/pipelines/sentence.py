@@ -63,6 +63,8 @@ CROUCHES = "crouch-walk", "crouch"
 UNDEAD = "zombie"  # the action that is somebody
 MOST_PIECES = 8  # between commas, that may be one part
 
+_AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?!\w)[,;]?", re.I)  # "punch, punch, kick"
+
 Strange = Callable[[str], object]
 GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
 PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
@@ -200,7 +202,7 @@ def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
     if _says("posed", arms, read) and read(arms).surely != "raise":
         arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
     spot = place_kept(text) if clause.metres is clause.degrees is None else None
-    if spot and read(rest := without(text, spot)).surely in GOING:
+    if spot and read(rest := _bared(without(text, spot), read)).surely in GOING:
         text, clause = rest, replace(clause, metres=0.0)
     return replace(clause, text=text, meanwhile=arms)
 
@@ -370,7 +372,7 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     """The text parted at stops and "and" into as many parts as tell of actions of their own, and
     what none of them holds: what is strange, and what tells of no action and would make unsure what
     stands beside it. Nothing stays of what is denied at the head ("don't run, …")."""
-    words = all_words()
+    words, text = all_words(), _counting(text, read)
     denial = words.denial.match(text) or words.refusal.search(text)
     who = denial and trimmed(text[: denial.start()])  # "she" of "she doesn't walk, she jumps"
     if denial and not (who and read(who).certainty > SURE):
@@ -425,11 +427,21 @@ def _joined(text: str, read: Read, strange: Strange) -> tuple[list[str], str]:
     return [text], HELD_MARK.sub("", ", ".join(lost))
 
 
+def _counting(text: str, read: Read) -> str:
+    """A text in which what is said again and again is said once, and how often."""
+
+    def times(said: re.Match[str]) -> str:
+        number = said[0].casefold().count(said[1].casefold())
+        counted = read(said[1]).surely not in (None, *GOING)
+        return f"{said[1]} {number} times," if counted else said[0]
+
+    return trimmed(_AGAIN.sub(times, text))
+
+
 def _lost(
     text: str, pieces: Sequence[Span], each: Sequence[str], kept: Sequence[bool], read: Read
 ) -> list[str]:
-    """Pieces beside an "and" that are not `kept` and of which nothing is heard, where another is
-    known: "gets hit and doubles over"."""
+    """Pieces beside an "and", not `kept`, of which nothing is heard where another is known."""
     words, known, lost = all_words(), False, list[str]()
     joined = [words.conjunction.fullmatch(text, one[1], other[0]) is not None
               and text[other[0] : other[0] + 1] != "'"

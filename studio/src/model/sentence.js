@@ -23,6 +23,7 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
+const AGAIN = /(?<![\p{L}\p{N}_])([\p{L}_]{4,})(?:[,;]?\s+\1)+(?![\p{L}\p{N}_])[,;]?/giu; // "punch, punch, kick"
 const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
 const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
 export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, once: false, tempo: 1, mirrored: false, unheard: "" });
@@ -179,7 +180,7 @@ export class SentenceReader {
       meanwhile = `raises ${clause.side} arm${clause.side === "both" ? "s" : ""}`;
     const spot = clause.metres === null && clause.degrees === null ? this.placeKept(text) : null;
     if (spot) {
-      const rest = this.without(text, spot);
+      const rest = this.bared(this.without(text, spot));
       if (GOING.includes(surely(this.plainRead(rest)))) return { ...clause, text: rest, meanwhile, metres: 0 };
     }
     return { ...clause, text, meanwhile };
@@ -426,7 +427,16 @@ export class SentenceReader {
     return [left.slice(0, last[0]), `${own.trimEnd()} ${right.trimStart()}`];
   }
 
+  /** A text in which what is said again and again is said once, and how often. */
+  counting(text) {
+    return this.trimmed(text.replace(AGAIN, (said, piece) => {
+      const number = said.toLowerCase().split(piece.toLowerCase()).length - 1, does = surely(this.heard(piece));
+      return does && !GOING.includes(does) ? `${piece} ${number} times,` : said;
+    }));
+  }
+
   joined(text) {
+    text = this.counting(text);
     const denial = this.head.denial.exec(text) ?? this.first.refusal.exec(text);
     const who = denial && this.trimmed(text.slice(0, denial.index)); // "she" of "she doesn't walk, she jumps"
     if (denial && !(who && this.heard(who).certainty > SURE)) {

@@ -497,3 +497,34 @@ def test_hops_on_the_left_foot_are_mirrored(sentence: str, sentences: SentenceGe
     assert clause.mirrored
     assert sentences.generator.read([clause.text])[0].nearest[0] == "hop"  # type: ignore[union-attr]
     assert sentences.scope_warnings([sentence]) == [None]
+
+
+@pytest.mark.parametrize(
+    ("sentence", "said"),
+    [
+        ("punch, punch, kick", [("punch", 2), ("kick", 1)]),
+        ("jump jump jump", [("jump", 3)]),
+        ("kick kick, then punch", [("kick", 2), ("punch", 1)]),
+        ("walks walks walks", [("walks walks walks", 1)]),
+        ("very very slowly he bows", [("very he bows", 1)]),
+    ],
+)
+def test_what_is_said_again_and_again_is_counted(
+    sentence: str, said: list[tuple[str, int]], sentences: SentenceGenerator
+):
+    assert [(clause.text, clause.count) for clause in sentences.clauses(sentence)] == said
+
+
+@pytest.mark.parametrize(
+    ("sentence", "text"),
+    [("die", "dies"), ("die.", "dies"), ("he trips and falls", "dies"), ("faints", "dies"),
+     ("sterben", "stirbt"), ("kick die Tür ein", "kick die Tür ein")],
+)  # fmt: skip
+def test_die_is_no_article_at_an_end(sentence: str, text: str, sentences: SentenceGenerator):
+    assert [clause.text for clause in sentences.clauses(sentence)] == [text]
+
+
+@pytest.mark.parametrize("sentence", ["a person is running on the spot", "he is jogging in place"])
+def test_who_is_running_on_the_spot_stays_there(sentence: str, sentences: SentenceGenerator):
+    (clause,) = sentences.clauses(sentence)
+    assert clause.metres == 0.0
