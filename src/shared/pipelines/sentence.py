@@ -9,6 +9,7 @@ that is of it decides where no word does.
 import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -92,6 +93,7 @@ def clauses(
     """
     words, found = all_words(), list[Clause]()
 
+    @cache
     def known(text: str) -> Reading:
         calm = without_tempo(text)[0] if words.tempo.search(text) else text
         own = (own for name, (own, _) in PLAINLY.items() if _says(name, calm, read))
@@ -149,14 +151,13 @@ def _handed(text: str, read: Read) -> Clause | None:
 
 def _walking_back(before: Clause, clause: Clause, read: Read) -> Clause:
     """Who has turned round and goes back goes ahead."""
-    words = all_words()
-    said = words.returns.search(clause.text)
-    about = before.degrees in (ABOUT, -ABOUT) or (
+    said = all_words().returns.search(clause.text)
+    turned = abs(before.degrees or 0) == ABOUT or (
         before.plain and read(before.text).surely == "turn"
     )
-    if said is None or clause.degrees is not None or not about:
+    if said is None or clause.degrees is not None or not turned:
         return clause
-    text = without(clause.text, said, words.returned[bare(plain_text(said[0]))])
+    text = without(clause.text, said, all_words().returned[bare(plain_text(said[0]))])
     return replace(clause, text=closed(text)) if read(text).surely in GOING else clause
 
 
@@ -184,9 +185,8 @@ def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
 def _says(name: str, text: str, read: Read) -> bool:
     """Whether a text is one of a pattern of `PLAINLY`, whose words `read` understands."""
     own, said = PLAINLY[name]
-    learned = name == "falls" and read(text).surely not in (None, *LIES)  # as something of its own
-    says = bool(vars(all_words())[name].fullmatch(text)) and not learned
-    return says and read(said).action == own.action
+    says = vars(all_words())[name].fullmatch(text) and read(said).action == own.action
+    return bool(says) and (name != "falls" or read(text).surely in (None, *LIES))
 
 
 def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
