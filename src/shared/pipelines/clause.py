@@ -34,6 +34,8 @@ LONG_REST = 1.0  # seconds before and after a cycle: who rests for less goes on 
 PACES = {"walk": (0.4, 1.3), "run": (0.8, 1.4)}  # times as fast as usual, at least and at most
 HOP = ("hop", "on one leg", "hops on one leg")  # an action, and words for it
 ABOUT = 180.0  # degrees, which need no side
+ENGLISH = re.compile(r"(?:an?|the|my|your|his|her|our|their|this|that)\s", re.I)  # of a name
+SHORT = 3  # letters of a pronoun behind an article of another language ("die er …")
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
 
@@ -279,8 +281,9 @@ def without_subject(text: str, read: Read) -> str:
     if rest != text:
         return rest
     for number, (stop, start) in enumerate(blanks(text)[1:3]):
-        rest = text[start:]
-        if words.named.match(text[:stop]) and (not number or is_verb(rest)) and read(rest).surely:
+        who, rest = text[:stop], text[start:]
+        told = is_told_of(text) if number else ENGLISH.match(who) or len(who.split()[-1]) > SHORT
+        if told and words.named.match(who) and read(rest).surely:
             return rest
     return text
 
@@ -297,8 +300,8 @@ def bows_head(text: str) -> bool:
 
 def is_told_of(text: str) -> bool:
     """Whether a text says in English of somebody behind an article what he does."""
-    cuts = blanks(text)[1:3]
-    return any(all_words().named.match(text[:at]) and is_verb(text[to:]) for at, to in cuts)
+    named, cuts = all_words().named, blanks(text)[1:3] if ENGLISH.match(text) else []
+    return any(named.match(text[:at]) and is_verb(text[to:]) for at, to in cuts)
 
 
 def is_verb(text: str) -> bool:

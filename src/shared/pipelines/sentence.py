@@ -45,6 +45,7 @@ from .words import (
     bare,
     names_both,
     plain_text,
+    says_number,
     side_of,
     tidied,
 )
@@ -60,8 +61,7 @@ HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
 SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
-CROUCHES = "crouch-walk", "crouch"
-UNDEAD = "zombie"  # the action that is somebody
+CROUCHES, UNDEAD = ("crouch-walk", "crouch"), "zombie"  # and an action that is somebody
 MOST_PIECES = 8  # between commas, that may be one part
 
 _AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?!\w)[,;]?", re.I)  # "punch, punch, kick"
@@ -152,9 +152,8 @@ def _handed(text: str, read: Read) -> Clause | None:
 def _walking_back(before: Clause, clause: Clause, read: Read) -> Clause:
     """Who has turned round and goes back goes ahead."""
     said = all_words().returns.search(clause.text)
-    turned = abs(before.degrees or 0) == ABOUT or (
-        before.plain and read(before.text).surely == "turn"
-    )
+    turns = before.plain and read(before.text).surely == "turn"
+    turned = turns or abs(before.degrees or 0) == ABOUT
     if said is None or clause.degrees is not None or not turned:
         return clause
     text = without(clause.text, said, all_words().returned[bare(plain_text(said[0]))])
@@ -215,11 +214,12 @@ def _bared(text: str, read: Read) -> str:
         return text
     own, someone = read(rest), all_words().subject.match(text) is not None
     if own.surely is None or asked.surely is None:
-        return rest if own.surely and (someone or not asked.known) else text
+        turns = own.action in GOING and asked.action in ("turn", "spin")  # near to each other
+        return rest if own.surely and (someone or not (asked.known or turns)) else text
     if own.action == asked.action:
         return rest if someone and own.known and not asked.known else text
     moved = own.action in GOING | {"stand"} and asked.action == UNDEAD  # a way to move
-    return rest if is_verb(rest) and not (someone or moved) else text
+    return rest if is_told_of(text) and not (someone or moved) else text
 
 
 def whole(sentence: str, found: Sequence[Clause]) -> str:
@@ -435,7 +435,7 @@ def _counting(text: str, read: Read) -> str:
         counted = read(said[1]).surely not in (None, *GOING)
         return f"{said[1]} {number} times," if counted else said[0]
 
-    return trimmed(_AGAIN.sub(times, text))
+    return text if says_number(text) else trimmed(_AGAIN.sub(times, text))
 
 
 def _lost(
@@ -447,12 +447,12 @@ def _lost(
               and text[other[0] : other[0] + 1] != "'"
               for one, other in pairwise(pieces)]  # fmt: skip
     for at, piece in enumerate(each):
-        reading = read(measured(piece).text)
+        own = measured(piece).text
+        reading = read(own)
         known |= reading.surely is not None and reading.known
         if at > 0 and joined[at - 1]:  # with nobody or nothing else that does it
-            size = len(piece) / 2 if re.match(CJK_SIGN, piece) else len(piece.split())
-            told = size > 2 or (size > 1 and is_verb(piece))
-            told = told and not words.another.match(piece)
+            size = len(own) / 2 if re.match(CJK_SIGN, own) else len(own.split())
+            told = (size > 2 or (size > 1 and is_verb(own))) and not words.another.match(piece)
         else:  # elsewhere it may be a scene
             told = at < len(joined) and joined[at] and is_told_of(piece)
         heard = reading.surely is not None or reading.known or words.tempo.search(piece)

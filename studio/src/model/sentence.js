@@ -23,6 +23,7 @@ const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
+const ENGLISH = /^(?:an?|the|my|your|his|her|our|their|this|that)\s/iu, SHORT = 3; // articles of a name, and letters of a pronoun behind one of another language ("die er …")
 const AGAIN = /(?<![\p{L}\p{N}_])([\p{L}_]{4,})(?:[,;]?\s+\1)+(?![\p{L}\p{N}_])[,;]?/giu; // "punch, punch, kick"
 const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
 const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
@@ -232,18 +233,23 @@ export class SentenceReader {
     const rest = this.withoutSubject(text);
     if (rest === text) return text;
     const [own, asked] = [rest, text].map((each) => this.plainRead(each)), someone = this.isSomebody(text);
-    if (!surely(own) || !surely(asked)) return surely(own) && (someone || asked.known === false) ? rest : text;
+    if (!surely(own) || !surely(asked)) {
+      const turns = GOING.includes(own.action) && ["turn", "spin"].includes(asked.action); // near to each other
+      return surely(own) && (someone || (asked.known === false && !turns)) ? rest : text;
+    }
     if (own.action === asked.action) return someone && own.known && !asked.known ? rest : text;
     const moved = [...GOING, "stand"].includes(own.action) && asked.action === UNDEAD; // a way to move
-    return isVerb(rest) && !someone && !moved ? rest : text;
+    return this.isToldOf(text) && !someone && !moved ? rest : text;
   }
 
   /** A text without who does it: a word for a person, or a name behind an article, in English with a word between them, where it is sure what the rest asks for. */
   withoutSubject(text) {
     const rest = text.replace(this.first.subject, "");
     if (rest !== text) return rest;
-    const found = spans(text, BLANKS).slice(1, 3).findIndex(([stop, start], number) =>
-      this.first.named.test(text.slice(0, stop)) && (!number || isVerb(text.slice(start))) && surely(this.plainRead(text.slice(start))));
+    const found = spans(text, BLANKS).slice(1, 3).findIndex(([stop, start], number) => {
+      const who = text.slice(0, stop), told = number ? this.isToldOf(text) : ENGLISH.test(who) || [...who.split(/\s+/u).at(-1)].length > SHORT;
+      return told && this.first.named.test(who) && surely(this.plainRead(text.slice(start)));
+    });
     return found < 0 ? text : text.slice(spans(text, BLANKS)[found + 1][1]);
   }
 
@@ -429,6 +435,7 @@ export class SentenceReader {
 
   /** A text in which what is said again and again is said once, and how often. */
   counting(text) {
+    if (this.saysNumber(text)) return text; // that is it
     return this.trimmed(text.replace(AGAIN, (said, piece) => {
       const number = said.toLowerCase().split(piece.toLowerCase()).length - 1, does = surely(this.heard(piece));
       return does && !GOING.includes(does) ? `${piece} ${number} times,` : said;
@@ -485,9 +492,9 @@ export class SentenceReader {
     if (pieces.length < 2 || !read.some((found) => surely(found) && found.known)) return [];
     const joined = pieces.slice(1).map(([start], i) => this.entire.conjunction.test(text.slice(pieces[i][1], start)) && text[start] !== "'");
     return each.filter((piece, i) => {
-      const size = CJK.test(piece[0]) ? [...piece].length / 2 : piece.split(/\s+/u).length;
+      const own = this.measured(piece).text, size = CJK.test(own[0]) ? [...own].length / 2 : own.split(/\s+/u).length;
       const told = i > 0 && joined[i - 1] // with nobody or nothing else that does it
-        ? (size > 2 || (size > 1 && isVerb(piece))) && !this.first.another.test(piece)
+        ? (size > 2 || (size > 1 && isVerb(own))) && !this.first.another.test(piece)
         : joined[i] && this.isToldOf(piece); // elsewhere it may be a scene
       return told && !kept(i) && !surely(read[i]) && !read[i].known && !this.first.tempo.test(piece);
     });
@@ -495,7 +502,7 @@ export class SentenceReader {
 
   /** Whether a text says in English of somebody behind an article what he does. */
   isToldOf(text) {
-    return spans(text, BLANKS).slice(1, 3).some(([at, to]) => this.first.named.test(text.slice(0, at)) && isVerb(text.slice(to)));
+    return ENGLISH.test(text) && spans(text, BLANKS).slice(1, 3).some(([at, to]) => this.first.named.test(text.slice(0, at)) && isVerb(text.slice(to)));
   }
 
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */

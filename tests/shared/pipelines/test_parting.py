@@ -528,3 +528,20 @@ def test_die_is_no_article_at_an_end(sentence: str, text: str, sentences: Senten
 def test_who_is_running_on_the_spot_stays_there(sentence: str, sentences: SentenceGenerator):
     (clause,) = sentences.clauses(sentence)
     assert clause.metres == 0.0
+
+
+@pytest.mark.parametrize(
+    ("sentence", "parts"),
+    [
+        ("paces back and forth", ["walks", "turns around", "walks"]),
+        ("er geht hin und her", ["er geht", "dreht sich um", "geht"]),
+        ("il fait les cent pas", ["il marche", "fait demi-tour", "marche"]),
+        ("camina de un lado a otro", ["camina", "se da la vuelta", "camina"]),
+        ("走来走去", ["走", "转身", "走"]),
+        ("行ったり来たりする", ["歩く", "後ろを向く", "歩く"]),
+        ("jump up and down five times", ["jump up and down"]),
+        ("Eine Achteldrehung nach rechts bitte", ["Eine Achteldrehung nach rechts bitte"]),
+    ],
+)
+def test_to_and_fro_turns_about(sentence: str, parts: list[str], sentences: SentenceGenerator):
+    assert [clause.text for clause in sentences.clauses(sentence)] == parts
