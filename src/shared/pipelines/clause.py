@@ -202,6 +202,8 @@ def _counted(clause: Clause) -> Clause:
     else:
         return clause
     rest = without(clause.text, match)
+    if number < 1:
+        return clause
     if number == 1:
         return replace(clause, once=rest != "" and words.piece.search(match[0]) is None)
     if number > MAX_COUNT:  # nobody means it: it is told that nothing is made of it
@@ -283,7 +285,8 @@ def without_subject(text: str, read: Read) -> str:
     for number, (stop, start) in enumerate(blanks(text)[1:3]):
         who, rest = text[:stop], text[start:]
         told = is_told_of(text) if number else ENGLISH.match(who) or len(who.split()[-1]) > SHORT
-        if told and words.named.match(who) and read(rest).surely:
+        somebody = words.named.match(who) and words.things.search(who) is None
+        if told and somebody and read(rest).surely:
             return rest
     return text
 
@@ -295,7 +298,10 @@ def is_somebody(text: str) -> bool:
 
 def bows_head(text: str) -> bool:
     """Whether a text says that the head is down meanwhile."""
-    return all_words().bowed.search(text) is not None
+    words = all_words()
+    said = words.bowed.search(text)
+    before = text[: said.start()] if said else ""
+    return said is not None and not (words.denies.search(before) or words.lacking.search(before))
 
 
 def is_told_of(text: str) -> bool:
@@ -306,8 +312,7 @@ def is_told_of(text: str) -> bool:
 
 def is_verb(text: str) -> bool:
     """Whether a text may begin with an English verb that has somebody before it."""
-    first, *_ = text.split()
-    return len(first) > 3 and first.endswith("s")
+    return re.match(r"\S{3,}s(?!\S)", text) is not None
 
 
 def blanks(text: str) -> list[tuple[int, int]]:

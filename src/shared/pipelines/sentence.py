@@ -63,8 +63,8 @@ SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
 CROUCHES, UNDEAD = ("crouch-walk", "crouch"), "zombie"  # and an action that is somebody
 MOST_PIECES = 8  # between commas, that may be one part
-
-_AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?!\w)[,;]?", re.I)  # "punch, punch, kick"
+_ABOUT = ABOUT, -ABOUT
+_AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?=\s*(?:[,;.!?]|$))", re.I)
 
 Strange = Callable[[str], object]
 GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
@@ -152,9 +152,8 @@ def _handed(text: str, read: Read) -> Clause | None:
 def _walking_back(before: Clause, clause: Clause, read: Read) -> Clause:
     """Who has turned round and goes back goes ahead."""
     said = all_words().returns.search(clause.text)
-    turns = before.plain and read(before.text).surely == "turn"
-    turned = turns or abs(before.degrees or 0) == ABOUT
-    if said is None or clause.degrees is not None or not turned:
+    turns = before.plain and read(before.text).surely == "turn" and side_of(before.text) == "both"
+    if said is None or clause.degrees is not None or not (turns or before.degrees in _ABOUT):
         return clause
     text = without(clause.text, said, all_words().returned[bare(plain_text(said[0]))])
     return replace(clause, text=closed(text)) if read(text).surely in GOING else clause
@@ -185,7 +184,8 @@ def _says(name: str, text: str, read: Read) -> bool:
     """Whether a text is one of a pattern of `PLAINLY`, whose words `read` understands."""
     own, said = PLAINLY[name]
     says = vars(all_words())[name].fullmatch(text) and read(said).action == own.action
-    return bool(says) and (name != "falls" or read(text).surely in (None, *LIES))
+    somebody = name != "falls" or all_words().things.search(text) is None  # not "the rain falls"
+    return bool(says) and somebody and (name != "falls" or read(text).surely in (None, *LIES))
 
 
 def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
@@ -433,7 +433,7 @@ def _counting(text: str, read: Read) -> str:
     def times(said: re.Match[str]) -> str:
         number = said[0].casefold().count(said[1].casefold())
         counted = read(said[1]).surely not in (None, *GOING)
-        return f"{said[1]} {number} times," if counted else said[0]
+        return f"{said[1]} {number} times" if counted else said[0]
 
     return text if says_number(text) else trimmed(_AGAIN.sub(times, text))
 

@@ -233,6 +233,7 @@ class SentenceGenerator:
             lines = self._doubts([said], again=again)
             asked, made = self._nearest(said), self._nearest(texts[0])
             same = parts[0].degrees is not None or {asked, made} in [{made}, *TWINS]
+            same |= asked == UNDEAD  # who does it, and no other thing
             apart = not parts[0].plain and (lines != [None] or not same)
         if apart:
             lines = self._doubts(texts, again=again)

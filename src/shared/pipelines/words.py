@@ -239,6 +239,7 @@ class Words:
         self.downs = Rare(rf"^{someone}{_any(all_of('downs'))}", all_of("downs"))
         self.crouched = Rare(rf"^{someone}{_any(all_of('crouches'))}\W*$", all_of("crouches"))
         self.falls = Rare(rf"^{someone}{_any(all_of('falls'))}\W*$", all_of("falls"))
+        self.things = Rare(_any(all_of("things")), all_of("things"))
         whose = _any(all_of("own"))
         self.another = re.compile(rf"^{whose}", re.I)  # who or what does it, behind an "and"
         self.named = re.compile(rf"^{whose}\s*(?:{_LETTER}+\s+)?{_LETTER}+$", re.I)  # somebody

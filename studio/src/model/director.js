@@ -42,7 +42,7 @@ export class Director {
     let lines = texts.map((text) => this.doubt(text));
     if (texts.length === 1) { // known without its measures, or as the same with them
       const said = this.reader.whole(prompt, parts), [asked, made] = [said, texts[0]].map((text) => this.nearest(text));
-      const same = this.scope.twins(made).includes(asked) || isPlain(parts[0]) || parts[0].degrees !== null, line = this.doubt(said);
+      const same = this.scope.twins(made).includes(asked) || asked === UNDEAD || isPlain(parts[0]) || parts[0].degrees !== null, line = this.doubt(said);
       if (isPlain(parts[0]) || (line === null && same)) lines = [line];
       const surer = this.reading(said).certainty >= this.reading(texts[0]).certainty;
       if (!same && surer && lines[0] === null && parts[0].count > 1) lines = [`“${said}” is “${asked}” by its number alone, and “${made}” without it; say it in other words.`];

@@ -24,7 +24,7 @@ const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
 const NUMBERED = /(?<![^\s,;:.])(?:(?:step|schritt|paso|étape|etape|take|toma|prise)\s*)?(\p{Nd}\p{Nd}?)\s*[.):](?!\p{Nd})\s*/giu;
 const BLANKS = /\s+|(?<=[\u3040-\u30ff\u3400-\u9fff]{2})(?=[\u3040-\u30ff\u3400-\u9fff]{2})/gu;
 const ENGLISH = /^(?:an?|the|my|your|his|her|our|their|this|that)\s/iu, SHORT = 3; // articles of a name, and letters of a pronoun behind one of another language ("die er …")
-const AGAIN = /(?<![\p{L}\p{N}_])([\p{L}_]{4,})(?:[,;]?\s+\1)+(?![\p{L}\p{N}_])[,;]?/giu; // "punch, punch, kick"
+const AGAIN = /(?<![\p{L}\p{N}_])([\p{L}_]{4,})(?:[,;]?\s+\1)+(?=\s*(?:[,;.!?]|$))/giu; // "punch, punch"
 const HOP = ["hop", "on one leg", "hops on one leg"]; // an action, and words for it
 const closed = (text) => text.replace(/(?<=[\u3040-\u30ff\u3400-\u9fff])\s+(?=[\u3040-\u30ff\u3400-\u9fff])|\s+(?=[,;.])/gu, ""); // no blanks between signs
 export const plainClause = (text) => ({ text, count: 1, degrees: null, metres: null, seconds: null, steps: null, meanwhile: "", side: "both", seat: "", held: false, once: false, tempo: 1, mirrored: false, unheard: "" });
@@ -142,15 +142,16 @@ export class SentenceReader {
   /** Whether a text is one of a pattern of PLAINLY, whose words the model understands; falls may be something of its own. */
   says(name, text) {
     if (!this.entire[name].test(text) || !this.learned(name)) return false;
-    const own = name === "falls" && surely(this.plainRead(text));
-    return !own || LIES.includes(own);
+    if (name !== "falls") return true;
+    const own = surely(this.plainRead(text));
+    return !this.first.things.test(text) && (!own || LIES.includes(own)); // "the rain falls"
   }
 
   /** Who has turned round and goes back goes ahead. */
   walkingBack(before, clause) {
     const said = this.first.returns.exec(clause.text);
     if (!said || clause.degrees !== null) return clause;
-    const turns = isPlain(before) && before.text && surely(this.read(before.text)) === "turn";
+    const turns = isPlain(before) && before.text && surely(this.read(before.text)) === "turn" && this.sideOf(before.text) === "both";
     if (Math.abs(before.degrees ?? 0) !== ABOUT && !turns) return clause;
     const text = this.without(clause.text, said, this.returned[bare(plain(said[0]))]);
     return text && GOING.includes(surely(this.read(text))) ? { ...clause, text: closed(text) } : clause;
@@ -248,7 +249,7 @@ export class SentenceReader {
     if (rest !== text) return rest;
     const found = spans(text, BLANKS).slice(1, 3).findIndex(([stop, start], number) => {
       const who = text.slice(0, stop), told = number ? this.isToldOf(text) : ENGLISH.test(who) || [...who.split(/\s+/u).at(-1)].length > SHORT;
-      return told && this.first.named.test(who) && surely(this.plainRead(text.slice(start)));
+      return told && this.first.named.test(who) && !this.first.things.test(who) && surely(this.plainRead(text.slice(start)));
     });
     return found < 0 ? text : text.slice(spans(text, BLANKS)[found + 1][1]);
   }
@@ -438,7 +439,7 @@ export class SentenceReader {
     if (this.saysNumber(text)) return text; // that is it
     return this.trimmed(text.replace(AGAIN, (said, piece) => {
       const number = said.toLowerCase().split(piece.toLowerCase()).length - 1, does = surely(this.heard(piece));
-      return does && !GOING.includes(does) ? `${piece} ${number} times,` : said;
+      return does && !GOING.includes(does) ? `${piece} ${number} times` : said;
     }));
   }
 
@@ -645,7 +646,8 @@ export class SentenceReader {
 
   /** Whether a text says that the head is down meanwhile. */
   bowsHead(text) {
-    return this.first.bowed.test(text);
+    const said = this.first.bowed.exec(text), before = said ? text.slice(0, said.index) : "";
+    return Boolean(said) && !this.first.denies.test(before) && !this.first.lacking.test(before);
   }
 
   turnsHead(text) {
@@ -701,6 +703,7 @@ export class SentenceReader {
       number = Math.trunc(this.value(match.groups.number ?? match.groups.after));
     }
     const rest = this.without(clause.text, match);
+    if (number < 1) return clause;
     if (number === 1) return { ...clause, once: rest !== "" && !this.first.piece.test(match[0]) };
     if (!rest) return clause;
     return number > this.maxCount ? { ...clause, text: rest, unheard: match[0] } : { ...clause, text: rest, count: number };

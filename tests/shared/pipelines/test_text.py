@@ -21,6 +21,7 @@ from src.shared.model.noise import TRIES
 from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, motion_heading
 from src.shared.motion.motion import Motion
 from src.shared.motion.skeleton import JOINT_INDEX
+from src.shared.pipelines.clause import bows_head
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
 from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import PromptSampler, TextJudge
@@ -802,6 +803,16 @@ def test_nobody_goes_backwards_for_who_he_is(starter: TextToMotion, text: str):
     assert measure(motion).forward > 1.0
     (back,) = sentences.generate(["the priest walks backwards"], seconds=3, steps=2)
     assert measure(back).forward < -0.5
+
+
+def test_a_head_that_is_not_down_stays_up():
+    assert bows_head("walks, head down") and not bows_head("walks without his head down")
+
+
+def test_a_blank_at_the_end_is_none_of_the_words(starter: TextToMotion):
+    sentences = SentenceGenerator(starter)
+    assert sentences.scope_warnings(["the tall robot "]) != [None]
+    assert sentences.scope_warnings(["a zombie jumps twice"]) == [None]
 
 
 def test_what_is_known_of_a_person_is_known_of_others(starter: TextToMotion):
