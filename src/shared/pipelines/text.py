@@ -41,29 +41,14 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, head_bowed, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
-from .clause import (
-    GOING,
-    REPEATED,
-    Clause,
-    Reading,
-    bows_head,
-    is_somebody,
-    without_subject,
-)
+from .clause import GOING, REPEATED, Clause, Reading, bows_head, is_somebody, without_subject
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
 from .sentence import HALT, RISEN, UNDEAD, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
-from .words import (
-    STANDS,
-    says_number,
-    says_often,
-    side_of,
-    turns_head,
-    unlearned,
-)
+from .words import STANDS, says_number, says_often, side_of, turns_head, unlearned
 
 STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
@@ -396,15 +381,21 @@ class SentenceGenerator:
     ) -> Motion:
         parts, rest = self.clauses(text), (text, seconds, tag, sampling, lock)
         motion, missed = self._made(parts, *rest)
+        left = [parts[at].text for at in missed]
         for stop in (RISEN, HALT):  # who stops before it begins as who is at rest does
             stands = [at for at in missed if self._nearest(parts[at - 1].text) != "stand"]
             if not stands:
                 break
             halt = Clause(STANDS, seconds=stop)
-            slow = [[halt, part] if at in stands else [part] for at, part in enumerate(parts)]
-            again, still = self._made([*chain(*slow)], *rest)
+            slow = [*chain(*([halt, part] if at in stands else [part]
+                             for at, part in enumerate(parts)))]  # fmt: skip
+            again, still = self._made(slow, *rest)
             if len(still) < len(missed):
-                return again
+                motion, left = again, [slow[at].text for at in still]
+                break
+        for said in left:
+            line = "%r: %r does not show behind what comes before it; try another seed, other words"
+            log.warning(line, text, said)
         return motion
 
     def _made(

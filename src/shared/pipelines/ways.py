@@ -52,6 +52,7 @@ class Ways:
         self._bent, self._gaits = dict[str, float](), dict[tuple[str, Sampling, str | None], Gait]()
 
     def gait(self, text: str, sampling: Sampling, tag: str | None = None) -> Gait:
+        """How a text goes where nothing leads it; sampled once."""
         if (key := (text, sampling, tag)) not in self._gaits:
             self._gaits[key] = natural_gait(self.generator, Passage(text, 1, tag), sampling)
         return self._gaits[key]
@@ -112,7 +113,11 @@ class Ways:
         self, passage: Passage, clause: Clause, sampling: Sampling, *, timed: bool
     ) -> Constraint:
         """So many metres, at the pace and in the direction that are the clause's own; in its
-        seconds, unless nobody goes so fast and it is not `timed`."""
+        seconds, unless nobody goes so fast and it is not `timed`.
+
+        Raises:
+            UserError: nobody goes so fast, and it is `timed`.
+        """
         if not clause.metres:
             return on_the_spot(Constraint.free(passage.frames))
         speed, facing, *_ = self.gait(passage.text, sampling, passage.tag)
@@ -130,5 +135,6 @@ class Ways:
         return path.swaying(self.sway(replace(passage, frames=len(path)), sampling)).constraint()
 
     def sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
+        """Of its heading, radians a second [T], about the way that it goes."""
         free = [*stream_features(self.generator, [passage], sampling)]
         return natural_sway(torch.cat(free), self.fps)

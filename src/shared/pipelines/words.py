@@ -307,24 +307,18 @@ class Words:
         others = rf"(?![\s-]*{_any(all_of('uncounted'))})"
         self.piece = Rare(_any(all_of("pieces")), all_of("pieces"))
         times = rf"{_any(all_of('times'))}|(?:{_any(all_of('pieces'))}|[x×](?!\w)){others}"
-        keys = "in_place", "off", "many", "crouches", "bowed", "head_turns", "tempos"
-        (
-            self.in_place,
-            self.off,
-            self.many,
-            self.crouches,
-            self.bowed,
-            self.head_turns,
-            self.tempo,
-        ) = (Rare(_any(all_of(key)), all_of(key)) for key in keys)
+        self.tempo, self.many, self.head_turns = (
+            Rare(_any(all_of(key)), all_of(key)) for key in ("tempos", "many", "head_turns")
+        )
+        self.in_place, self.off, self.crouches, self.bowed = (
+            Rare(_any(all_of(key)), all_of(key)) for key in ("in_place", "off", "crouches", "bowed")
+        )
         low = {said: does for t in tables for does, many in t["postures"].items() for said in many}
         self.posture = Rare(rf"{_any(low)}(?:\s*{_COMMAS})?", [*low])
         self.postures = {bare(said): does for said, does in low.items()}
         back = {said: does for t in tables for does, many in t["returns"].items() for said in many}
-        self.returns, self.returned = (
-            Rare(_any(back), [*back]),
-            {bare(said): back[said] for said in back},
-        )
+        self.returns = Rare(_any(back), [*back])
+        self.returned = {bare(said): does for said, does in back.items()}
         self.times = re.compile(rf"{ready}(?:{number}\s*(?:{times})|[x×]\s*(?P<after>\d+))", re.I)
         several = [word for word, value in numbers.items() if value > 1]  # "one" is mostly somebody
         counted = rf"(?:{others}(?=[\s-]+\w)|(?={_any(all_of('nouns'))}))"

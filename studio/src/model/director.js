@@ -187,10 +187,10 @@ export class Director {
     for (const stop of [RISEN, HALT]) { // who stops before it begins as who is at rest does
       const stands = missed.filter((at) => this.nearest(parts[at - 1].text) !== "stand"), halt = { ...plainClause(STANDS), seconds: stop };
       if (!stands.length) break;
-      const again = await this.made(prompt, parts.flatMap((part, at) => (stands.includes(at) ? [halt, part] : [part])), seconds, seed, options);
-      if (again.missed.length < missed.length) return again.motion;
+      const slow = parts.flatMap((part, at) => (stands.includes(at) ? [halt, part] : [part])), again = await this.made(prompt, slow, seconds, seed, options);
+      if (again.missed.length < missed.length) return { ...again.motion, missed: unshown(prompt, again.missed.map((at) => slow[at].text)) };
     }
-    return motion;
+    return { ...motion, missed: unshown(prompt, missed.map((at) => parts[at].text)) };
   }
 
   /** The motion of clauses, and which gestures behind others do not show in it. */
@@ -533,6 +533,10 @@ export class Director {
     return `“${text}”: what was made anew does not show “${this.nearest(first)}”, by how joints move; look at it, try a longer span, another seed, or a clip that stands.`;
   }
 }
+
+/** A line of gestures that do not show in a sequence, else null. */
+const unshown = (prompt, texts) =>
+  texts.map((text) => `“${prompt}”: “${text}” does not show behind what comes before it, by how joints move; try another seed or other words.`).join(" ") || null;
 
 /** The motion as far as the frame in which a foot has landed so many times (src/shared/motion/postprocess/whole.py). */
 function untilLanded(motion, steps, last, otherwise) {

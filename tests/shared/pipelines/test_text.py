@@ -834,6 +834,15 @@ def test_who_does_not_show_a_gesture_behind_another_stops_before_it(
     assert whole.seconds < 8.0
 
 
+def test_a_gesture_that_no_stop_helped_is_told(
+    starter: TextToMotion, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+):
+    sentences = SentenceGenerator(starter)
+    monkeypatch.setattr(sentences, "_does", lambda text, motion: False)
+    sentences.generate(["walks, then kicks"], steps=1)
+    assert "'kicks' does not show" in caplog.text and "'walks' does not" not in caplog.text
+
+
 def test_feet_stay_where_they_are_while_somebody_gets_up(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     [motion] = sentences.generate(["sits down, then stands up"], seed=0)
