@@ -1,5 +1,5 @@
-// Builds what ships in src/shared/studio/shell: two classic scripts, onnxruntime's WebAssembly, the
-// licences of both libraries. `npm ci && npm run build`.
+// Builds what ships in src/shared/studio/shell: three classic scripts, onnxruntime's WebAssembly without
+// and with WebGPU, the licences of both libraries. `npm ci && npm run build`.
 
 import { build } from "esbuild";
 import { readFileSync, writeFileSync } from "node:fs";
@@ -8,7 +8,7 @@ import { gzipSync } from "node:zlib";
 const shell = new URL("../src/shared/studio/shell/", import.meta.url);
 const modules = new URL("node_modules/", import.meta.url);
 const { outputFiles } = await build({
-  entryPoints: { studio: "src/main.js", helper: "src/helper.js" },
+  entryPoints: { studio: "src/main.js", helper: "src/processor.js", graphics: "src/graphics.js" },
   outdir: "out", // nothing is put there
   bundle: true,
   write: false,
@@ -28,9 +28,11 @@ for (const { path, text } of outputFiles) {
   writeFileSync(new URL(name, shell), script);
   console.log(`${name} ${script.length} bytes`);
 }
-const wasm = readFileSync(new URL("onnxruntime-web/dist/ort-wasm-simd-threaded.wasm", modules));
-writeFileSync(new URL("onnxruntime.wasm.gz", shell), gzipSync(wasm, { level: 9 }));
+for (const [from, to] of [["", ""], [".asyncify", "-webgpu"]]) {
+  const wasm = readFileSync(new URL(`onnxruntime-web/dist/ort-wasm-simd-threaded${from}.wasm`, modules));
+  writeFileSync(new URL(`onnxruntime${to}.wasm.gz`, shell), gzipSync(wasm, { level: 9 }));
+  console.log(`onnxruntime${to} ${wasm.length} bytes`);
+}
 const notices = ["three/LICENSE", "../licences/onnxruntime.txt"].map((name) => readFileSync(new URL(name, modules), "utf8"));
 const licences = `three.js\n\n${notices[0]}\n\nonnxruntime\n\n${notices[1]}`;
 writeFileSync(new URL("licences.txt.gz", shell), gzipSync(licences, { level: 9 }));
-console.log(`onnxruntime ${wasm.length} bytes`);

@@ -1,5 +1,7 @@
 // All that computes, without the page: runs in a worker, or in the page where there are none.
 
+import * as ort from "onnxruntime-web/wasm";
+
 import { useSkeleton } from "./body/skeleton.js";
 import { Denoiser } from "./model/denoiser.js";
 import { Director } from "./model/director.js";
@@ -15,7 +17,7 @@ export class Engine {
     useSkeleton(settings.skeleton);
     const weights = new Weights(parts.weights);
     const tower = new TextTower(weights, new Tokenizer(parts.tokenizer, settings.maxTokens));
-    const denoiser = Object.assign(new Denoiser(parts, settings.weights, settings.shifted), { helpers });
+    const denoiser = Object.assign(new Denoiser(ort, parts, settings.weights, settings.shifted), { helpers });
     const model = {
       ...settings,
       mean: weights.floats("statistics.mean"),
@@ -48,6 +50,11 @@ export class Engine {
   /** What a body that goes on is to do instead, also while what comes next is made. */
   say({ text }) {
     if (this.stream) this.stream.text = text;
+  }
+
+  /** What its helper is worth: see `Sampler.compare`. */
+  compare() {
+    return this.director.sampler.compare();
   }
 
   warning({ text, seconds }) {

@@ -1,11 +1,11 @@
 """The studio: one page with a text model inside that makes motions in a browser, without a server.
 
 The shell (scripts, onnxruntime's WebAssembly) is built from `studio/` and ships; the model and its
-graph go in here as they are stored. Each part is a `<script>` of base64
-that no browser runs. The page refuses the network by its own Content-Security-Policy.
+graph go in here as they are stored. Each part is a `<script>` that no browser runs, of characters
+of seven bits: a sixth more than its bytes, where base64 has a third. The page refuses the network
+by its own Content-Security-Policy.
 """
 
-import base64
 import gzip
 import re
 from functools import reduce
@@ -13,6 +13,8 @@ from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
+
+import numpy as np
 
 from ..config_schema import PAIRS, DiffusionConfig
 from ..data.retarget.mapping import load_mappings
@@ -35,7 +37,9 @@ from ..motion.skeleton import JOINT_NAMES, LIMBS
 from ..pipelines.edit import GROUPS
 from ..pipelines.words import MAX_COUNT, MOST, UNITS, all_words, unlearned_words
 
-WASM, SCRIPT, HELPER = "onnxruntime.wasm.gz", "studio.js", "helper.js"
+WASM, GRAPHICS_WASM = "onnxruntime.wasm.gz", "onnxruntime-webgpu.wasm.gz"
+SCRIPTS = {"@SCRIPT@": "studio.js", "@HELPER@": "helper.js", "@GRAPHICS@": "graphics.js"}
+REFUSED = tuple(map(ord, "\0\n\r<"))  # of seven bits, which HTML, or who copies it, may change
 TEMPLATE = "studio.html"
 LICENCES = "licences.txt.gz"
 SAMPLERS = ("ddim", "dpm-solver++")  # that the page's scripts know
@@ -69,10 +73,11 @@ def write_studio(out: Path, model: str = TEXT_MODEL, steps: int | None = None) -
         "tokenizer": (folder / TOKENIZER_FOLDER / MODEL_FILE).read_bytes(),
         "scope": (folder / TABLE_FILE).read_bytes(),
         **rest_files(),
+        "graphics": shell.joinpath(GRAPHICS_WASM).read_bytes(),
         "licences": shell.joinpath(LICENCES).read_bytes(),
     }
     blobs = "\n".join(
-        f'<script type="text/plain" id="part-{name}">{_coded(part)}</script>'
+        f'<script type="text/plain" id="part-{name}">{seven_bit(part)}</script>'
         for name, part in parts.items()
     )
     filled = {
@@ -84,8 +89,7 @@ def write_studio(out: Path, model: str = TEXT_MODEL, steps: int | None = None) -
             }
         ),
         "@PARTS@": blobs,
-        "@SCRIPT@": shell.joinpath(SCRIPT).read_text("utf-8"),
-        "@HELPER@": shell.joinpath(HELPER).read_text("utf-8"),
+        **{mark: shell.joinpath(name).read_text("utf-8") for mark, name in SCRIPTS.items()},
     }
     page = shell.joinpath(TEMPLATE).read_text("utf-8")
     page = re.sub("|".join(filled), lambda mark: filled[mark[0]], page)
@@ -100,8 +104,14 @@ def page_file(out: Path) -> Path:
     return out if out.suffix.lower() in (".html", ".htm") else out / "index.html"
 
 
-def _coded(part: bytes) -> str:
-    return base64.b64encode(_packed(part)).decode()
+def seven_bit(part: bytes) -> str:
+    """A part, compressed, as characters of seven bits; those that are REFUSED have the eighth."""
+    packed = _packed(part)
+    padded = np.frombuffer(packed + bytes(-len(packed) % 7), np.uint8).reshape(-1, 7)
+    groups = np.pad(padded, ((0, 0), (1, 0))).view(">u8")
+    codes = (groups >> np.arange(49, -1, -7, dtype=np.uint64) & 127).astype(np.uint8).ravel()
+    codes[np.isin(codes, REFUSED)] |= 128
+    return codes[: -(-len(packed) * 8 // 7)].tobytes().decode("latin-1")
 
 
 def _packed(part: bytes) -> bytes:

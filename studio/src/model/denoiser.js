@@ -1,31 +1,35 @@
-// The denoiser in onnxruntime: one thread of WebAssembly, its code and weights given as bytes.
-
-import * as ort from "onnxruntime-web/wasm";
+// The denoiser in onnxruntime, its code and weights given as bytes: one thread of WebAssembly, or a graphics card.
 
 import { Weights } from "./safetensors.js";
 
 export class Denoiser {
   /**
+   * @param {object} ort onnxruntime, with WebAssembly alone or with WebGPU
    * @param {object} parts bytes: wasm of onnxruntime; graph, and adapted for a model with adapters,
    *     without weights; weights, a safetensors file
    * @param {object} names of the weights that each graph reads
    * @param {string[]} shifted the vectors that a learned step changes; none where none was learned
+   * @param {boolean} graphics whether a card computes. It has a session for each adapter, whose weights are those of
+   *     the graph without adapters, changed: no shader has a buffer for each part of the other graph's input.
    */
-  constructor(parts, names, shifted = []) {
+  constructor(ort, parts, names, shifted = [], graphics = false) {
     ort.env.wasm.numThreads = 1;
     ort.env.wasm.wasmBinary = parts.wasm.buffer;
     ort.env.logLevel = "error";
-    Object.assign(this, { parts, names, shifted, weights: new Weights(parts.weights) });
+    Object.assign(this, { ort, parts, names, shifted, graphics, weights: new Weights(parts.weights) });
     this.sessions = {};
     this.adapters = {}; // of so many samples each, as they are used
-    this.helpers = []; // predict in its place, elsewhere and at the same time
+    this.helpers = []; // predict in its place, elsewhere and at the same time, until one has failed
+    this.failed = null; // what it said
   }
 
-  /** Of a graph, as it is for the first of few steps where that is `first`: opened when it is first needed, and again where that failed. */
-  session(graph, first = false) {
-    const key = first ? `${graph} first` : graph;
-    this.sessions[key] ??= ort.InferenceSession.create(this.parts[graph], {
-      externalData: this.names[graph].map((path) => ({ path, data: new Uint8Array(this.weights.ready(path, first ? this.shifted : null).buffer) })),
+  /** For an adapter, as it is for the first of few steps where that is `first`: opened when it is first needed, and again where that failed. */
+  session(opened, first = false) {
+    const graph = opened && !this.graphics ? "adapted" : "graph", own = this.graphics ? opened : 0, key = `${graph} ${own} ${first}`;
+    this.sessions[key] ??= this.ort.InferenceSession.create(this.parts[graph], {
+      externalData: this.names[graph].map((path) => ({ path, data: new Uint8Array(this.weights.ready(path, first ? this.shifted : null, own).buffer) })),
+      executionProviders: [this.graphics ? "webgpu" : "wasm"],
+      logSeverityLevel: 3, // errors
       graphOptimizationLevel: "disabled", // the graphs are optimised
     }).catch((error) => {
       delete this.sessions[key];
@@ -39,7 +43,7 @@ export class Denoiser {
     const key = `${opened} ${samples}`;
     if (!this.adapters[key]) {
       const own = this.weights.adapter(opened - 1);
-      this.adapters[key] = new ort.Tensor("float32", all(Array(samples).fill(own)), [samples, own.length]);
+      this.adapters[key] = new this.ort.Tensor("float32", all(Array(samples).fill(own)), [samples, own.length]);
     }
     return this.adapters[key];
   }
@@ -59,14 +63,14 @@ export class Denoiser {
     if (this.helpers.length) {
       const half = this.helpers.length > 1 ? Math.ceil(batch.length / 2) : batch.length, rest = [tag, shown, opened, first];
       const shares = [[0, half], [half, batch.length]].filter(([start, stop]) => start < stop);
-      const found = await Promise.all(shares.map((share, i) => this.helpers[i](batch.slice(...share), step, texts.slice(...share), ...rest))).catch(() => null);
+      const found = await Promise.all(shares.map((share, i) => this.helpers[i](batch.slice(...share), step, texts.slice(...share), ...rest))).catch((error) => { this.failed = error.message.replace(/^.*Error: /, ""); });
       if (found) return found.flat();
       this.helpers = []; // they may lack the memory
     }
     const number = batch.length, size = batch[0].length, frames = size / 138;
     const shape = [number, frames, 23, 6];
-    const heard = opened && { adapter: this.adapter(opened, number) };
-    const { prediction } = await (await this.session(opened ? "adapted" : "graph", first)).run({
+    const { ort } = this, heard = opened && !this.graphics && { adapter: this.adapter(opened, number) };
+    const { prediction } = await (await this.session(opened, first)).run({
       x: new ort.Tensor("float32", all(batch), shape),
       t: new ort.Tensor("int64", new BigInt64Array(number).fill(BigInt(step)), [number]),
       pooled: new ort.Tensor("float32", all(texts), [number, texts[0].length]),

@@ -61,11 +61,13 @@ export class Weights {
 
   /**
    * What a graph reads under a name: a tensor as float32, or one transposed; as it is for the first of few steps
-   * where `shifted` names the vectors that it changes (src/shared/model/onnx_graphs.py).
+   * where `shifted` names the vectors that it changes, and with one of the adapters, from 1 on (src/shared/model/onnx_graphs.py).
    */
-  ready(path, shifted = null) {
+  ready(path, shifted = null, opened = 0) {
     const name = path.replace(TURNED, ""), values = this.floats(name);
     if (shifted) this.change(name, values, shifted);
+    const down = name.replace(/weight$/, `adapters.${opened - 1}.0.weight`);
+    if (opened && this.has(down)) this.addProduct(values, down.replace(/0\.weight$/, "1.weight"), down);
     if (name === path) return values;
     const [rows, columns] = this.shape(name), turned = new Float32Array(values.length);
     for (let row = 0, at = 0; row < rows; row++)
@@ -76,23 +78,25 @@ export class Weights {
   /** A tensor as the learned step has it: a low-rank product or a row of its shifts is added. */
   change(name, values, shifted) {
     const key = name.replace(/^denoiser\./, "").replaceAll(".", "_"), own = `${STEP}down.${key}`;
-    if (this.has(own)) {
-      const down = this.floats(own), up = this.floats(`${STEP}up.${key}`), [rank, columns] = this.shape(own);
-      for (let row = 0; row * columns < values.length; row++) {
-        const whole = values.subarray(row * columns, (row + 1) * columns);
-        for (let k = 0; k < rank; k++) {
-          const share = up[row * rank + k], part = down.subarray(k * columns, (k + 1) * columns);
-          for (let column = 0; column < columns; column++) whole[column] += share * part[column];
-        }
-      }
-      return;
-    }
+    if (this.has(own)) { this.addProduct(values, `${STEP}up.${key}`, own); return; }
     if (!shifted.includes(name)) return;
     this.shifts ??= this.floats(`${STEP}shifts`);
     const width = this.shape(`${STEP}shifts`)[1];
     let at = 0;
     for (const before of shifted.slice(0, shifted.indexOf(name))) at += Math.ceil(this.shape(before)[0] / width) * width;
     for (let i = 0; i < values.length; i++) values[i] += this.shifts[at + i];
+  }
+
+  /** Adds a low-rank product, of the tensors of two names, to a matrix. */
+  addProduct(values, ups, downs) {
+    const up = this.floats(ups), down = this.floats(downs), [rank, columns] = this.shape(downs);
+    for (let row = 0; row * columns < values.length; row++) {
+      const whole = values.subarray(row * columns, (row + 1) * columns);
+      for (let k = 0; k < rank; k++) {
+        const share = up[row * rank + k], part = down.subarray(k * columns, (k + 1) * columns);
+        for (let column = 0; column < columns; column++) whole[column] += share * part[column];
+      }
+    }
   }
 }
 

@@ -4,6 +4,9 @@
 import { WIDTH } from "../body/features.js";
 import { noise } from "./noise.js";
 
+const MEASURED = 60; // frames
+const FAR = 0.01; // standard deviations between predictions of the same
+
 export class Sampler {
   /**
    * @param {Denoiser} denoiser
@@ -49,6 +52,26 @@ export class Sampler {
     const features = new Float32Array(size);
     for (let i = 0; i < size; i++) features[i] = given?.known[i] ? given.values[i] : x[i] * std[i % WIDTH] + mean[i % WIDTH];
     return features;
+  }
+
+  /**
+   * What the only helper is worth, by a pass over the same noise: { helper, own } milliseconds and how far `apart` the predictions
+   * are; or { error }, and then it helps no more.
+   */
+  async compare() {
+    const { denoiser, settings: { schedule, nullText, tags, adapters } } = this, { helpers } = denoiser, size = MEASURED * WIDTH;
+    const args = [[noise(0, "", size)], schedule[0][0], [nullText], tags, new Uint8Array(size), Number(Boolean(adapters))];
+    const timed = async (help) => {
+      denoiser.helpers = help;
+      await denoiser.predict(...args); // code is compiled as it runs
+      const start = performance.now(), [values] = await denoiser.predict(...args);
+      return { values, took: performance.now() - start };
+    };
+    const own = await timed([]), other = await timed(helpers);
+    const apart = own.values.reduce((most, value, i) => Math.max(most, Math.abs(value - other.values[i])), 0);
+    if (apart < FAR) return { helper: other.took, own: own.took, apart, ...(denoiser.helpers.length ? {} : { error: denoiser.failed }) };
+    denoiser.helpers = [];
+    return { error: `it computes something else (${apart.toPrecision(2)} apart)` };
   }
 
   /** Which adapter a text opens, as the nearest place does; 0 for none. */

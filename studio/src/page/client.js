@@ -3,13 +3,16 @@
 
 import { handler } from "../worker.js";
 
+const [PAGE, HELPER, GRAPHICS] = [0, 1, 2]; // scripts
+
 export class Client {
   waiting = new Map();
   count = 0;
   workers = [];
+  graphics = null; // WebAssembly of a helper on a graphics card, where one is wanted
 
   /**
-   * @param {string[]} scripts the page's own, and that of helpers
+   * @param {string[]} scripts the page's own, that of helpers, and that of one on a graphics card
    * @param {object} settings
    * @param {Promise<object>} parts still being unpacked
    * @param {string[]} texts that will be asked for first
@@ -31,9 +34,10 @@ export class Client {
       const failed = new Promise((_, reject) => { worker.onerror = (event) => reject(new Error(event.message || "no worker")); });
       this.send("prepare", { settings, texts }).catch(() => null); // while the parts are unpacked
       parts = await Promise.race([this.parts, failed]);
-      const two = !settings.shifted.length && navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4; // learned passes have no halves
+      const { graphics } = this, two = !graphics && !settings.shifted.length && navigator.hardwareConcurrency > 1 && (navigator.deviceMemory ?? 8) >= 4; // learned passes have no halves
       const alone = () => this.worker === worker && this.send("alone", {}).catch(() => null);
-      const ports = Array.from({ length: two ? 2 : 1 }, () => this.getHelp(parts, alone));
+      const own = graphics ? [{ ...parts, wasm: graphics }, alone, GRAPHICS] : [parts, alone];
+      const ports = Array.from({ length: two ? 2 : 1 }, () => this.getHelp(...own));
       await Promise.race([this.send("open", { settings, parts, ports }, ports), failed]);
     } catch {
       if (worker && this.worker !== worker) return; // stopped while it opened: the next one opens
@@ -44,7 +48,7 @@ export class Client {
     }
   }
 
-  begin(script = 0) {
+  begin(script = PAGE) {
     const worker = new Worker(this.addresses[script]);
     this.workers.push(worker);
     return worker;
@@ -62,9 +66,18 @@ export class Client {
     this.opened = this.start();
   }
 
+  /** Begin anew with a helper on a graphics card, with its WebAssembly, or without: null. What it is worth: see `Sampler.compare`. */
+  async useGraphics(wasm) {
+    this.graphics = wasm;
+    this.stop();
+    await this.opened;
+    if (!wasm) return null;
+    return this.worker ? this.send("compare", {}) : { error: "this page may start no worker" };
+  }
+
   /** The port to a worker that predicts; `failed` is called where it cannot. */
-  getHelp({ wasm, graph, adapted, weights }, failed) {
-    const worker = this.begin(1), { port1, port2 } = new MessageChannel(), { weights: names, shifted } = this.settings;
+  getHelp({ wasm, graph, adapted, weights }, failed, script = HELPER) {
+    const worker = this.begin(script), { port1, port2 } = new MessageChannel(), { weights: names, shifted } = this.settings;
     worker.onerror = failed;
     worker.postMessage({ parts: { wasm, graph, adapted, weights }, names, shifted, port: port2 }, [port2]);
     return port1;

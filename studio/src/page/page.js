@@ -9,7 +9,7 @@ import { FPS, useSkeleton } from "../body/skeleton.js";
 import { lengthOf } from "../model/path.js";
 import { Client } from "./client.js";
 import { goLive } from "./live.js";
-import { readParts } from "./parts.js";
+import { readPart, readParts } from "./parts.js";
 import { examples, PATHS } from "./presets.js";
 import { fromLink, History, isEmpty, LIMITS, spanOf, START, toLink, within } from "./scene.js";
 import { Stage } from "./stage.js";
@@ -41,7 +41,7 @@ class Page {
     this.time = 0;
     this.toldAt = -Infinity;
     this.history = new History(fromLink(location.hash) ?? START, () => this.changed());
-    const scripts = ["script", "helper"].map((id) => $(id).textContent), parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
+    const scripts = ["script", "helper", "graphics-helper"].map((id) => $(id).textContent), parts = readParts(document), texts = this.scene.blocks.map(({ text }) => text);
     const opened = Client.open(scripts, this.settings, parts, texts); // its workers begin beside all that follows
     this.openStage();
     this.timeline = new Timeline($("timeline"), this);
@@ -144,6 +144,8 @@ class Page {
       $("notices").querySelector("pre").textContent = this.licences ? new TextDecoder().decode(this.licences) : "";
       $("notices").showModal();
     });
+    $("graphics").closest("p").hidden = !navigator.gpu;
+    $("graphics").addEventListener("change", () => this.chooseGraphics());
     $("about").textContent = `Model ${this.settings.name}: ${this.settings.licence}.`;
   }
 
@@ -289,6 +291,19 @@ class Page {
     }, () => this.client.stop());
   }
 
+  /** Passes on the graphics card from now on, if there is one that can, or on the processor again. */
+  chooseGraphics() {
+    const wanted = $("graphics").checked;
+    return this.during(async () => {
+      this.tell(wanted ? "Opening the graphics card …" : "Going back to the processor …");
+      const found = await this.client.useGraphics(wanted ? await readPart(document, "graphics") : null);
+      if (found?.error) $("graphics").checked = false;
+      if (!found) this.tell("The processor computes.");
+      else if (found.error) this.tell(`The graphics card cannot be used, the processor goes on: ${found.error}`, "warning");
+      else this.tell(`A pass takes the graphics card ${found.helper.toFixed(0)} ms, the processor ${found.own.toFixed(0)} ms. Its motions may differ a little from the command line's.`);
+    }, () => this.client.stop());
+  }
+
   askForWords(index) {
     this.select(index);
     this.tell("Say in a few words what the body does.", "warning");
@@ -315,7 +330,7 @@ class Page {
     this.making = making;
     document.body.classList.toggle("making", making);
     $("make").setAttribute("aria-busy", String(making && !this.live));
-    $("live").disabled = making;
+    $("live").disabled = $("graphics").disabled = making;
     this.offerStop();
     this.showButtons();
   }

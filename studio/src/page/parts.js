@@ -1,20 +1,32 @@
-// The parts of the model that stand in the page as base64 of gzip, behind the script that reads them.
+// The parts of the model that stand in the page as gzip in characters of seven bits (src/shared/studio/page.py), behind the
+// script that reads them.
 
+const LATER = "graphics"; // is read when somebody wants it
+
+/** All parts but that one, by name; what was read is no longer in the page. */
 export async function readParts(document) {
   if (document.readyState === "loading") await new Promise((resolve) => document.addEventListener("DOMContentLoaded", resolve));
-  const elements = [...document.querySelectorAll('script[id^="part-"]')];
-  const entries = await Promise.all(elements.map(async (element) => {
-    const bytes = decode(element.textContent);
+  const names = [...document.querySelectorAll('script[id^="part-"]')].map(({ id }) => id.slice("part-".length)).filter((name) => name !== LATER);
+  const entries = await Promise.all(names.map(async (name) => {
+    const element = document.getElementById(`part-${name}`), part = await readPart(document, name);
     element.remove(); // 15 MB of text that nobody reads again
-    return [element.id.slice("part-".length), await unpacked(bytes)];
+    return [name, part];
   }));
   return Object.fromEntries(entries);
 }
 
-function decode(text) {
-  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
-  const binary = atob(text), bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
+/** One part. @returns {Promise<Uint8Array>} */
+export function readPart(document, name) {
+  return unpacked(decoded(document.getElementById(`part-${name}`).textContent));
+}
+
+function decoded(text) {
+  const bytes = new Uint8Array(Math.floor((text.length * 7) / 8));
+  for (let i = 0, at = 0, bits = 0, held = 0; at < bytes.length; i++) {
+    bits = (bits << 7) | (text.charCodeAt(i) & 127);
+    held += 7;
+    if (held >= 8) bytes[at++] = bits >> (held -= 8);
+  }
   return bytes;
 }
 

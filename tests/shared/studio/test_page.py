@@ -1,6 +1,7 @@
 """The studio's page: nothing from elsewhere, and motions that are the command line's."""
 
 import base64
+import gzip
 import json
 import re
 import time
@@ -12,6 +13,8 @@ from threading import Thread
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from src.shared.data.retarget.read_motion import read_motion
 from src.shared.errors import UserError
@@ -24,7 +27,7 @@ from src.shared.pipelines.motion_generator import MotionGenerator
 from src.shared.pipelines.path import DrawnPath
 from src.shared.pipelines.stream import Passage
 from src.shared.pipelines.timeline import Timeline
-from src.shared.studio.page import write_studio
+from src.shared.studio.page import seven_bit, write_studio
 from tests.shared.formats.chromium_pipe import Browser
 from tests.shared.formats.firefox_marionette import Firefox, firefox
 from tests.shared.formats.glb_reader import Glb
@@ -165,6 +168,46 @@ def test_the_two_learned_steps_are_those_of_the_command_line(
             [wanted] = generator.generate([prompt], seconds=3.0, sampling=sampling)
             there = read_motion(write_bvh(wanted, tmp_path / "a.bvh"))
             assert_same(exported(opened, tmp_path), there)
+
+
+@settings(max_examples=50)
+@given(part=st.binary(max_size=40))
+def test_parts_are_characters_that_html_leaves_alone(part: bytes) -> None:
+    coded = seven_bit(part)
+    assert not set(coded) & set("\0\n\r<")
+    bits = "".join(f"{ord(each) & 127:07b}" for each in coded)
+    whole = bytes(int(bits[at : at + 8], 2) for at in range(0, len(bits) - 7, 8))
+    assert gzip.decompress(whole) == part
+
+
+@BROWSER
+def test_who_has_no_graphics_card_is_told_and_goes_on(browser: Browser) -> None:
+    browser.evaluate("document.getElementById('graphics').click()")
+    browser.wait("!studio.making", 60)
+    assert "cannot be used, the processor goes on" in text_of(browser, "status")
+    assert browser.evaluate("document.getElementById('graphics').checked") is False
+    assert browser.problems.pop() == "No available adapters."  # Chromium's own line
+    made(browser, "{ blocks: [{ text: 'a person waves', seconds: 2 }] }")
+
+
+@pytest.mark.slow  # half a minute: the card is made of software
+@BROWSER
+def test_a_graphics_card_makes_the_same(
+    page: Path, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    flags = ("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader")
+    ready = "studio?.timings?.first !== undefined && !studio.making"
+    with Browser(page.as_uri(), tmp_path / "profile", ready=ready, flags=flags) as browser:
+        browser.evaluate("document.getElementById('graphics').click()")
+        browser.wait("!studio.making", 120)
+        assert text_of(browser, "status").startswith("A pass takes the graphics card")
+        for text in ("a person kicks", "an old man walks"):  # two adapters
+            made(browser, f"{{ blocks: [{{ text: '{text}', seconds: 2 }}] }}")
+            [own] = generator.generate([text], seconds=2.0)
+            there = exported(browser, tmp_path)
+            np.testing.assert_allclose(there.positions(), own.positions(), atol=1e-3)
+        assert "error" not in browser.evaluate("studio.client.call('compare')")  # still helps
+        assert browser.problems == []
 
 
 @pytest.mark.slow
@@ -534,7 +577,7 @@ def touched(browser: Browser, *states: list[tuple[float, float]], end: str = "to
 
 SMALL = """["button", "select", "input:not([type=radio])", "summary", ".handle"]
     .flatMap((selector) => [...document.querySelectorAll(selector)])
-    .map((element) => (element.closest('.tools label') ?? element).getBoundingClientRect())
+    .map((element) => (element.closest('.tools label, details label') ?? element).getBoundingClientRect())
     .filter(({ width, height }) => width && Math.min(width, height) < 40).length"""
 
 
