@@ -28,6 +28,7 @@ from .words import (
 SURE = 0.0  # log odds: how sure it must be what a text asks for
 HELD = "\u23f8"  # behind what is held
 GOING = frozenset({"walk", "run", "crouch-walk"})
+STEPPING = GOING | {"side-step"}
 ONCE = 5.0  # seconds in which most is done once, at most
 REPEATED, LAP = (2.5, 3.0), 4.75  # seconds of one repetition, from … to; of many in one window
 LONG_REST = 1.0  # seconds before and after a cycle: who rests for less goes on in the next window

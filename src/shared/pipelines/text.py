@@ -41,7 +41,16 @@ from ..motion.features import (
 from ..motion.motion import Motion
 from ..motion.postprocess.whole import hands_meet, head_bowed, rest_to_rest, until_landed
 from ..tensors import Tensor, torch
-from .clause import GOING, REPEATED, Clause, Reading, bows_head, is_somebody, without_subject
+from .clause import (
+    GOING,
+    REPEATED,
+    STEPPING,
+    Clause,
+    Reading,
+    bows_head,
+    is_somebody,
+    without_subject,
+)
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
 from .sentence import HALT, RISEN, UNDEAD, clauses, whole
@@ -50,7 +59,6 @@ from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
 from .words import STANDS, says_number, says_often, side_of, turns_head, unlearned
 
-STEPPING, ROUND = GOING | {"side-step"}, {"turn", "spin"}
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
 INSISTING = 3.0  # times the model's guidance, of what is sampled again
@@ -228,7 +236,7 @@ class SentenceGenerator:
                      " say it in other words"]  # fmt: skip
         angled = {part.text for part in parts if part.degrees is not None}  # which says it
         for at, text in enumerate(texts):
-            sure = text in angled and self._reading(text).surely in ROUND
+            sure = text in angled and self._reading(text).surely in ("turn", "spin")
             lines[at] = self._strange(text) or (None if sure else lines[at])
         unheard = filter(None, (part.unheard for part in parts))
         lines += [self._strange(text) or f"nothing is made of {text!r}" for text in unheard]
@@ -516,10 +524,12 @@ class SentenceGenerator:
                 rest = features, start, joints, sampling, part.seat
                 features = beside(self.generator, replace(arms, frames=stop - start), *rest)
         shown, end = list[Tensor](), 0
-        for (start, stop), part, (passage, _) in zip(spans, parts, stretches, strict=True):
+        for (start, stop), part, (passage, way) in zip(spans, parts, stretches, strict=True):
             does, free = features[start:stop], part.degrees is None and part.metres is None
             steady = self._steady(part.text, alone=len(parts) == 1) if free else ()
-            does = hastened(without_drift(does, steady), self._pace(part), passage.timed)
+            does = without_drift(does, steady)
+            does = does if way is not None else self.ways.straight(part.text, does)
+            does = hastened(does, self._pace(part), passage.timed)
             shown, end = [*shown, hastened(features[end:start], part.tempo), does], stop
         ends = [*accumulate(map(len, shown))]
         features, spans = torch.cat(shown), [*zip(ends[::2], ends[1::2], strict=True)]

@@ -16,8 +16,8 @@ from ..model.diffusion import Sampling
 from ..model.generation.constraint import Constraint
 from ..model.generation.motion_generator import TextToMotion
 from ..motion.features import ROOT_ROW, YAW_RATE
-from ..tensors import torch
-from .clause import GOING, Clause
+from ..tensors import Tensor, torch
+from .clause import GOING, STEPPING, Clause
 from .path import (
     TURN_REST,
     DrawnPath,
@@ -29,7 +29,7 @@ from .path import (
     time_path,
     turned,
 )
-from .stream import Passage, stream_features
+from .stream import WINDOW, Passage, stream_features
 from .words import goes_round, side_of
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
@@ -133,6 +133,16 @@ class Ways:
             log.warning("%r: %s; until then it takes its own time", passage.text, error)
             path = pace(seconds=None)
         return path.swaying(self.sway(replace(passage, frames=len(path)), sampling)).constraint()
+
+    def straight(self, text: str, features: Tensor) -> Tensor:
+        """Features that nothing led, [T,23,6]: who goes on for longer than a window, and does not
+        turn in the mean, goes straight on. Drift bends a minute's walk by up to 200 degrees."""
+        rate = features[:, ROOT_ROW, YAW_RATE]
+        if self.nearest(text) not in STEPPING or len(rate) <= WINDOW or abs(rate.mean()) >= TURNING:
+            return features
+        straight = features.clone()
+        straight[:, ROOT_ROW, YAW_RATE] = torch.as_tensor(natural_sway(features, self.fps))
+        return straight
 
     def sway(self, passage: Passage, sampling: Sampling) -> np.ndarray:
         """Of its heading, radians a second [T], about the way that it goes."""

@@ -254,6 +254,7 @@ export class Director {
     spans = parts.map((part, i) => {
       const [start, stop] = spans[i], does = cut(features, start, stop);
       if (part.degrees === null && part.metres === null) removeDrift(does, this.steady(part.text, parts.length === 1));
+      if (!stretches[i].given) this.straighten(part.text, does);
       shown.push(hastened(cut(features, end, start), part.tempo));
       end = stop;
       const first = joined();
@@ -419,6 +420,15 @@ export class Director {
     const { text } = clause, first = Math.min(frames, round(HELD_SECONDS * FPS));
     const alone = { text, frames: first, afresh: this.beginsStanding(text), mirrored, miss: this.miss(clause, first) };
     return held(await streamFeatures(this.sampler, [alone], seed), frames);
+  }
+
+  /** Who goes on for longer than a window, and does not turn in the mean, goes straight on. */
+  straighten(text, features) {
+    const frames = framesOf(features), at = (t) => t * WIDTH + ROOT + YAW_RATE;
+    let turned = 0;
+    for (let t = 0; t < frames; t++) turned += features[at(t)];
+    if (!STEPPING.includes(this.nearest(text)) || frames <= WINDOW || Math.abs(turned) >= TURNING * frames) return;
+    for (const [t, rate] of naturalSway(features).entries()) features[at(t)] = rate;
   }
 
   async sway(text, frames, seed) {

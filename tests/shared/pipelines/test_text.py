@@ -443,6 +443,14 @@ def test_a_walk_turns_a_corner_or_goes_round(starter: TextToMotion):
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
 
 
+@pytest.mark.parametrize("prompt", ["a person walks forward", "a man walks backwards"])
+def test_who_goes_on_and_on_goes_straight(prompt: str, loaded: TextToMotion) -> None:
+    [motion] = SentenceGenerator(loaded).generate([prompt], seconds=15.0, seed=1)
+    assert abs(turn_of(motion)) < 10
+    place = motion.root_position[-1] - motion.root_position[0]
+    assert abs(place[0]) < 0.15 * abs(place[2]) and abs(place[2]) > 6
+
+
 def test_a_quarter_turn_is_meant_and_circles_close(starter: TextToMotion):
     sentences = SentenceGenerator(starter)
     left, about, circle = sentences.generate(
