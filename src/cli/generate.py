@@ -38,6 +38,7 @@ from .generate_request import (
 if TYPE_CHECKING:
     from ..shared.audio.song import Song
     from ..shared.model.generation.motion_generator import Progress
+    from ..shared.motion.motion import Motion
     from ..shared.pipelines.edit import Given
     from ..shared.pipelines.motion_generator import MotionGenerator
     from ..shared.pipelines.path import DrawnPath
@@ -70,7 +71,8 @@ def generate(request: Request) -> None:
         check_song(request.audio)
         check_range("meter", request.meter, 3, 4)
     result = produce(request)
-    files.show_scores(result["selection"])
+    if result["selection"]:
+        files.show_scores(result["selection"])
     if request.json:
         print_json(result)
     else:
@@ -128,14 +130,15 @@ def prompted(request: Request) -> dict[str, Any]:
     done = [request.resume and all(whole[at * kept :][:kept]) for at in range(len(prompts))]
     groups = in_groups(prompts, done)
     fresh = [each for group in groups for at in group for each in places[at * kept :][:kept]]
-    note_replaced([path for each in fresh for path in each.values()], request.out)
-    rows: list[dict[str, Any]] = [
-        {"prompt": prompts[at // kept], "files": files.named(each), "resumed": True}
-        for at, each in enumerate(places)
-    ]
+    rows: list[dict[str, Any]] = [{} for _ in places]
+    motions: list[Motion | None] = [None for _ in places]
     paged = "html" in formats and len(places) > 1
-    motions = files.read_back(places, [paged and any(done) and one for one in whole])
+    if any(done):
+        rows = [{"prompt": prompts[at // kept], "files": files.named(each), "resumed": True}
+                for at, each in enumerate(places)]  # fmt: skip
+        motions = files.read_back(places, [paged and one for one in whole])
     judged: list[tuple[str, ScoreTable]] = []
+    note_replaced([path for each in fresh for path in each.values()], request.out)
     for group in groups:
         before, total = number * len(judged), number * sum(map(len, groups))
         with progress_bar("motions") as progress:
@@ -154,17 +157,20 @@ def prompted(request: Request) -> dict[str, Any]:
             own = result.ranked()
             written = files.write_motions(own, places[at * kept :][:kept])
             for rank, (row, motion) in enumerate(zip(written, own, strict=True)):
-                warning = warnings[at] or generator.sentences.missed(prompts[at], motion)
+                warning = result.warning
+                if rank and warnings[at] is None:
+                    warning = generator.sentences.missed(prompts[at], motion)
                 row |= {"sample": int(result.table.order[rank]), "rank": rank + 1}
                 row |= {"seed": request.seed, "warning": warning}
-                row |= {"clauses": [x.said for x in generator.sentences.clauses(motion.text)]}
+                row |= {"clauses": [clause.said for clause in result.clauses]}
                 rows[at * kept + rank], motions[at * kept + rank] = row, motion
             judged.append((prompts[at], result.table))
         clock.lap("write")
     shown = [motion for motion in motions if motion is not None]
-    paged &= bool(groups) and len(shown) == len(places)
-    index = files.write_index(shown, request.out) if paged else None
-    clock.lap("write")
+    index = None
+    if paged and groups and len(shown) == len(places):
+        index = files.write_index(shown, request.out)
+        clock.lap("write")
     selection = judged if several else ()
     return told_of_text(request, generator) | results(rows, clock, selection, index)
 

@@ -33,7 +33,7 @@ def checked_formats(text: str, known: Mapping[str, Any]) -> list[str]:
     from ..shared.formats.registry import find_writer
 
     names = list(dict.fromkeys(parts(text.lower())))
-    unknown = [name for name in names if name not in known]
+    unknown = sorted({*names} - {*known})
     if unknown or not names:
         raise UsageError(
             f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
@@ -276,7 +276,7 @@ def scored(about: str, table: "ScoreTable") -> dict[str, Any]:
 
 def show_scores(selection: Sequence[dict[str, Any]]) -> None:
     """One short table a prompt or song on stderr."""
-    if not selection or is_quiet():
+    if is_quiet():
         return
     from rich.console import Console
     from rich.table import Table

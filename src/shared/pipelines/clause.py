@@ -6,9 +6,9 @@ those of words.py.
 
 import math
 import re
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 from .words import (
     ARRIVES,
@@ -17,12 +17,15 @@ from .words import (
     FEW,
     MAX_COUNT,
     MOST,
+    STANDS,
     UNITS,
     all_words,
     bare,
     plain_text,
     side_of,
+    units_said,
     value_of,
+    wholly,
 )
 
 SURE = 0.0  # log odds: how sure it must be what a text asks for
@@ -37,10 +40,13 @@ HOP = ("hop", "on one leg", "hops on one leg")  # an action, and words for it
 ABOUT = 180.0  # degrees, which need no side
 ENGLISH = re.compile(r"(?:an?|the|my|your|his|her|our|their|this|that)\s", re.I)  # of a name
 SHORT = 3  # letters of a pronoun behind an article of another language ("die er …")
+SQUATS, UNDEAD = "squats down", "zombie"  # words, and an action that is somebody
+CROUCHING = (None, "squat", "crouch-walk", "crouch")  # what "crouches" is taken for
 HELD_MARK = re.compile(f"{HELD}(?:([\\d.]+){HELD})?")
 
 
-class Reading(NamedTuple):
+@dataclass(frozen=True)
+class Reading:
     """What a text alone asks for.
 
     Attributes:
@@ -49,6 +55,7 @@ class Reading(NamedTuple):
         arms: whether the arms alone do it.
         known: whether it is near enough to what was learned.
         handed: the side, left or right, that alone was learned to do it; "" where that is not so.
+        surely: the action, where it is sure.
     """
 
     action: str | None = None
@@ -56,14 +63,21 @@ class Reading(NamedTuple):
     arms: bool = False
     known: bool = True
     handed: str = ""
+    surely: str | None = field(init=False)
 
-    @property
-    def surely(self) -> str | None:
-        """The action, where it is sure."""
-        return self.action if self.certainty > SURE else None
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "surely", self.action if self.certainty > SURE else None)
 
 
 Read = Callable[[str], Reading]
+GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
+PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
+    "ups": (GOT_UP, STANDS),
+    "bends": (Reading("turn", 3.0), "turns left"),
+    "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
+    "falls": (Reading("die", 3.0), "dies"),
+}
+LIES = frozenset({"die", "get-up", "lie-down", "sleep", "pick-up"})  # what falls are taken for
 
 
 @dataclass(frozen=True)
@@ -159,15 +173,16 @@ def _with_measures(text: str) -> Clause:
     words, clause = all_words(), Clause(text)
     said = words.angle.sub(" ", text)  # a right angle is on no side
     side = side_of(said)
-    for name, (field, factor, least) in UNITS.items():
+    for name in units_said(text):
+        of, factor, least = UNITS[name]
         if (match := measure_of(name, clause.text, least)) is None:
             continue
         if name == "steps" and words.uncounted.search(match["manner"] or ""):
             continue  # "raises two arms steps back"
         number = value_of(match["number"])
         number += 0.5 * bool(match.groupdict().get("half"))
-        value = number * factor + (getattr(clause, field) or 0)  # a minute and ten seconds
-        if not 0 < value <= MOST[field]:
+        value = number * factor + (getattr(clause, of) or 0)  # a minute and ten seconds
+        if not 0 < value <= MOST[of]:
             continue
         stays, before = "", clause.text[: match.start()]
         if words.larger.search(before):
@@ -177,7 +192,7 @@ def _with_measures(text: str) -> Clause:
             stays = f"{article} {match['manner'] or ''}{noun}".strip()
         rest = without(clause.text, match, stays)
         if rest or name != "steps":
-            said_so: dict[str, Any] = {"text": rest, field: value}
+            said_so: dict[str, Any] = {"text": rest, of: value}
             clause = replace(clause, **said_so)
     if clause.degrees is None and (match := words.angle.search(clause.text)) and side != "both":
         clause = replace(clause, degrees=words.angles[bare(match[0])])
@@ -249,6 +264,8 @@ def without_tempo(text: str) -> tuple[str, float]:
     """A text without the word that says how fast, and how many times as fast that is; as it is
     where two say otherwise ("quick, quick, slow")."""
     words = all_words()
+    if words.tempo.search(text) is None:
+        return text, 1.0
     found = {words.tempos[bare(plain_text(said[0]))] for said in words.tempo.finditer(text)}
     if len(found) != 1:
         return text, 1.0
@@ -292,9 +309,51 @@ def without_subject(text: str, read: Read) -> str:
     return text
 
 
-def is_somebody(text: str) -> bool:
-    """Whether a text begins with a word for a person, which tells nothing of how he moves."""
-    return all_words().subject.match(text) is not None
+def understood(patterns: Sequence[str], text: str, read: Read) -> list[str]:
+    """Those of the patterns that a text is that are of `PLAINLY`, and whose words `read` knows."""
+    plain = ((name, *PLAINLY[name]) for name in patterns if name in PLAINLY)
+    return [name for name, own, said in plain if read(said).action == own.action
+            and (name != "falls" or read(text).surely in (None, *LIES))]  # fmt: skip
+
+
+def plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
+    """A clause in words of the tower; a bend that is all there is may be a walk."""
+    text, arms = bared(clause.text, read), clause.meanwhile
+    said = understood(patterns := wholly(text), text, read)
+    if "ups" in said:
+        text = STANDS
+    elif "falls" in said:
+        text = PLAINLY["falls"][1]
+    elif (
+        "crouched" in patterns and read(SQUATS).action == "squat" and read(text).surely in CROUCHING
+    ):
+        text = SQUATS
+    elif "bends" in said and not alone and read(text).surely != "turn":
+        text = f"turns {side_of(text)}"
+    if arms and "posed" in understood(wholly(arms), arms, read) and read(arms).surely != "raise":
+        arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
+    spot = place_kept(text) if clause.metres is clause.degrees is None else None
+    if spot and read(rest := bared(without(text, spot), read)).surely in GOING:
+        text, clause = rest, replace(clause, metres=0.0)
+    return replace(clause, text=text, meanwhile=arms)
+
+
+def bared(text: str, read: Read) -> str:
+    """A text without its subject, where only then it is sure, or known, what it asks for; or where
+    the subject alone asks for something else ("a zombie dies")."""
+    asked, someone = read(text), all_words().subject.match(text) is not None
+    if someone and asked.surely and asked.known:
+        return text
+    if (rest := without_subject(text, read)) == text:
+        return text
+    own = read(rest)
+    if own.surely is None or asked.surely is None:
+        turns = own.action in GOING and asked.action in ("turn", "spin")  # near to each other
+        return rest if own.surely and (someone or not (asked.known or turns)) else text
+    if own.action == asked.action:
+        return rest if someone and own.known and not asked.known else text
+    moved = own.action in GOING | {"stand"} and asked.action == UNDEAD  # a way to move
+    return rest if is_told_of(text) and not (someone or moved) else text
 
 
 def bows_head(text: str) -> bool:

@@ -40,6 +40,7 @@ from ..motion.features import encode_features
 from ..motion.motion import Motion
 from ..motion.trajectory import MotionTrajectory
 from ..tensors import Tensor, torch
+from .clause import Clause
 from .text import SentenceGenerator
 
 if TYPE_CHECKING:
@@ -466,13 +467,15 @@ def _similarity(tower: Tower, performance: "Performance", prompts: Tensor) -> fl
 
 @dataclass(frozen=True, eq=False)
 class PromptResult:
-    """The best motion for one prompt; all N, as sampled, if asked for; their scores; and a line if
-    the prompt is far from what the model knows, or the best does not show what it asks for."""
+    """The best motion for one prompt; all N, as sampled, if asked for; their scores; a line if the
+    prompt is far from what the model knows, or the best does not show what it asks for; and what
+    the prompt was read as."""
 
     motion: Motion
     all_candidates: list[Motion] | None
     table: ScoreTable
     warning: str | None = None
+    clauses: Sequence[Clause] = ()
 
     def ranked(self) -> list[Motion]:
         """All candidates, best first; only the best where the others were not kept."""
@@ -527,5 +530,6 @@ class PromptSampler:
                 table = self.judge.judge(made, embeddings[number])
             best, kept = made[table.best], made if return_all else None
             warning = warnings[number] or self.generator.missed(prompt, best)
-            results.append(PromptResult(best, kept, table, warning))
+            clauses = self.generator.clauses(prompt)
+            results.append(PromptResult(best, kept, table, warning, clauses))
         return results

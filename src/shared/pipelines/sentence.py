@@ -16,23 +16,27 @@ from typing import NamedTuple
 from .clause import (
     ABOUT,
     GOING,
+    GOT_UP,
     HELD,
     HELD_MARK,
+    PLAINLY,
+    SQUATS,
     SURE,
     Clause,
     Read,
     Reading,
+    bared,
     blanks,
     closed,
     in_tempo,
     is_told_of,
     is_verb,
     measured,
-    place_kept,
+    plainly,
     trimmed,
+    understood,
     without,
     without_hand,
-    without_subject,
     without_tempo,
 )
 from .words import (
@@ -48,12 +52,13 @@ from .words import (
     says_number,
     side_of,
     tidied,
+    wholly,
 )
 
 # How sure it must be what each part asks for where they are parted by a comma, "and", a participle
 # or "with"; by a word that says "at once"; by a comma beside such a word.
 SURE_AT_MARK, SURE_IF_SAID = -14.0, -2.0
-SITS, SQUATS = "sits", "squats down"
+SITS = "sits"
 BEFORE = 0.8  # seconds that one stands or sits before sitting down or getting up
 # Seconds that one who got up stands, or who sat down sits, before the next thing; who lies down.
 RISEN, LAID = 1.5, 3.0
@@ -61,20 +66,11 @@ HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
 SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
-CROUCHES, UNDEAD = ("crouch-walk", "crouch"), "zombie"  # and an action that is somebody
 MOST_PIECES = 8  # between commas, that may be one part
 _ABOUT = ABOUT, -ABOUT
 _AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?=\s*(?:[,;.!?]|$))", re.I)
 
 Strange = Callable[[str], object]
-GOT_UP = Reading("stand", 3.0)  # as surely as an action is known
-PLAINLY = {  # what whole patterns ask for, and words of a tower that knows them
-    "ups": (GOT_UP, STANDS),
-    "bends": (Reading("turn", 3.0), "turns left"),
-    "posed": (Reading("raise", 3.0, arms=True), "raises both arms"),
-    "falls": (Reading("die", 3.0), "dies"),
-}
-LIES = frozenset({"die", "get-up", "lie-down", "sleep", "pick-up"})  # what falls are taken for
 Span = tuple[int, int]
 _Last = tuple[str | None, str, bool]  # action, side, and whether it says how far
 _SIDES = {"left", "right"}
@@ -96,8 +92,8 @@ def clauses(
     @cache
     def known(text: str) -> Reading:
         calm = without_tempo(text)[0] if words.tempo.search(text) else text
-        own = (own for name, (own, _) in PLAINLY.items() if _says(name, calm, read))
-        found = next(own, None) or read(_bared(text, read))
+        plain = understood(wholly(calm), calm, read)
+        found = PLAINLY[plain[0]][0] if plain else read(bared(text, read))
         if found.surely is None and calm not in ("", text):
             paced = known(calm)  # how fast is no part of what is done
             return paced if paced.surely else found
@@ -121,10 +117,13 @@ def clauses(
     waits = first == STANDS and len(found) == 2  # "gets up after three seconds"
     if words.downs.match(first) and known(first).action in LOW:
         found.insert(0, Clause(STANDS, seconds=BEFORE))
-    elif _says("ups", found[waits].text, read) and read(SITS).action in LOW:
+    elif (
+        "ups" in understood(wholly(found[waits].text), found[waits].text, read)
+        and read(SITS).action in LOW
+    ):
         sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
         found[:waits] = [sits]
-    said, found = found[-1], [_plainly(each, read, alone=len(found) == 1) for each in found]
+    said, found = found[-1], [plainly(each, read, alone=len(found) == 1) for each in found]
     if found[-1].text == SQUATS != said.text and found[-1].plain and not said.once:
         found[-1] = replace(found[-1], held=True)  # who crouches stays there
     for at, clause in enumerate(found):
@@ -152,8 +151,10 @@ def _handed(text: str, read: Read) -> Clause | None:
 def _walking_back(before: Clause, clause: Clause, read: Read) -> Clause:
     """Who has turned round and goes back goes ahead."""
     said = all_words().returns.search(clause.text)
+    if said is None or clause.degrees is not None:
+        return clause
     turns = before.plain and read(before.text).surely == "turn" and side_of(before.text) == "both"
-    if said is None or clause.degrees is not None or not (turns or before.degrees in _ABOUT):
+    if not (turns or before.degrees in _ABOUT):
         return clause
     text = without(clause.text, said, all_words().returned[bare(plain_text(said[0]))])
     return replace(clause, text=closed(text)) if read(text).surely in GOING else clause
@@ -166,60 +167,20 @@ def _seated(before: Clause, clause: Clause, read: Read) -> Clause:
         own = measured(clause.meanwhile)
         own = replace(own, seat=clause.text, side=clause.side, mirrored=clause.mirrored)
         return replace(own, unheard=clause.unheard)
-    if clause.meanwhile or clause.far or clause.held:
+    if clause.meanwhile or clause.held:
         return clause
-    seat = before.seat or before.text
-    if read(clause.text).arms and read(seat).action in SEATED:
+    words, seat = all_words(), before.seat or before.text
+    stays = seat and read(clause.text).arms and read(seat).action in SEATED
+    said = None if stays else words.posture.search(clause.text)
+    if not (stays or said) or clause.far:
+        return clause
+    if said is None:
         return replace(clause, seat=seat, side=side_of(clause.text))
-    words = all_words()
-    said = words.posture.search(clause.text)
-    rest = without(clause.text, said) if said else ""
-    if said is None or not read(rest).arms:
+    rest = without(clause.text, said)
+    if not read(rest).arms:
         return clause
     seat = words.postures[bare(plain_text(said[0].strip(EDGES)))]
     return replace(clause, text=rest, seat=seat, side=side_of(rest))
-
-
-def _says(name: str, text: str, read: Read) -> bool:
-    """Whether a text is one of a pattern of `PLAINLY`, whose words `read` understands."""
-    own, said = PLAINLY[name]
-    says = vars(all_words())[name].fullmatch(text) and read(said).action == own.action
-    somebody = name != "falls" or all_words().things.search(text) is None  # not "the rain falls"
-    return bool(says) and somebody and (name != "falls" or read(text).surely in (None, *LIES))
-
-
-def _plainly(clause: Clause, read: Read, *, alone: bool) -> Clause:
-    """A clause in words of the tower; a bend that is all there is may be a walk."""
-    text, arms = _bared(clause.text, read), clause.meanwhile
-    for name, words in (("ups", STANDS), ("falls", PLAINLY["falls"][1])):
-        text = words if _says(name, text, read) else text
-    crouches = all_words().crouched.match(text) and read(SQUATS).action == "squat"
-    if crouches and read(text).surely in (None, "squat", *CROUCHES):
-        text = SQUATS
-    if not alone and _says("bends", text, read) and read(text).surely != "turn":
-        text = f"turns {side_of(text)}"
-    if _says("posed", arms, read) and read(arms).surely != "raise":
-        arms = f"raises {clause.side} arm{'s' * (clause.side == 'both')}"
-    spot = place_kept(text) if clause.metres is clause.degrees is None else None
-    if spot and read(rest := _bared(without(text, spot), read)).surely in GOING:
-        text, clause = rest, replace(clause, metres=0.0)
-    return replace(clause, text=text, meanwhile=arms)
-
-
-def _bared(text: str, read: Read) -> str:
-    """A text without its subject, where only then it is sure, or known, what it asks for; or where
-    the subject alone asks for something else ("a zombie dies")."""
-    rest, asked = without_subject(text, read), read(text)
-    if rest == text:
-        return text
-    own, someone = read(rest), all_words().subject.match(text) is not None
-    if own.surely is None or asked.surely is None:
-        turns = own.action in GOING and asked.action in ("turn", "spin")  # near to each other
-        return rest if own.surely and (someone or not (asked.known or turns)) else text
-    if own.action == asked.action:
-        return rest if someone and own.known and not asked.known else text
-    moved = own.action in GOING | {"stand"} and asked.action == UNDEAD  # a way to move
-    return rest if is_told_of(text) and not (someone or moved) else text
 
 
 def whole(sentence: str, found: Sequence[Clause]) -> str:
@@ -435,7 +396,9 @@ def _counting(text: str, read: Read) -> str:
         counted = read(said[1]).surely not in (None, *GOING)
         return f"{said[1]} {number} times" if counted else said[0]
 
-    return text if says_number(text) else trimmed(_AGAIN.sub(times, text))
+    if _AGAIN.search(text) is None or says_number(text):
+        return text
+    return trimmed(_AGAIN.sub(times, text))
 
 
 def _lost(

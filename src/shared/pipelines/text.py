@@ -10,7 +10,7 @@ import logging
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from itertools import accumulate, chain, pairwise
 
 from ..device import idle_threads
@@ -45,19 +45,19 @@ from .clause import (
     GOING,
     REPEATED,
     STEPPING,
+    UNDEAD,
     Clause,
     Reading,
     bows_head,
-    is_somebody,
     without_subject,
 )
 from .edit import ControlledMotion, beside, chosen_joints, held
 from .path import TURN_REST, on_the_spot, time_of_steps
-from .sentence import HALT, RISEN, UNDEAD, clauses, whole
+from .sentence import HALT, RISEN, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
-from .words import STANDS, says_number, says_often, side_of, turns_head, unlearned
+from .words import STANDS, all_words, says_number, says_often, side_of, turns_head, unlearned
 
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
@@ -75,9 +75,10 @@ class SentenceGenerator:
         self.generator = generator
         self.card, self.text, self.scope = generator.card, generator.text, generator.scope
         self.encode_prompts = generator.encode_prompts
-        self._read, self._scoped = dict[str, list[Clause]](), dict[str, ScopeResult | None]()
+        self._read = dict[str, list[Clause]]()
         self._whole, self._lines = dict[str, str](), dict[str, list[str | None]]()
         self._told, self._strange = set[str](), partial(unlearned, scope=self.scope)
+        self._reading, self._scope_result = cache(self._asked_for), cache(self._scope_of)
 
     @cached_property
     def ways(self) -> Ways:
@@ -93,7 +94,7 @@ class SentenceGenerator:
 
     def _ahead(self, text: str) -> str:
         """A text without who does it, where he alone makes a walk or a run go backwards."""
-        if self._nearest(text) not in GOING or is_somebody(text):
+        if self._nearest(text) not in GOING or all_words().subject.match(text):
             return text
         rest = without_subject(text, self._reading)
         return self.ways.ahead(text, rest) if rest != text else text
@@ -127,7 +128,7 @@ class SentenceGenerator:
             UserError: as `TextToMotion.generate`.
         """
         asked, prompts = prompts, [self.whole(prompt) for prompt in prompts]
-        sampling = Sampling(seed=seed, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
+        sampling = partial(Sampling, steps=steps, sampler=sampler, guidance_scale=guidance_scale)
         lengths = list(seconds) if isinstance(seconds, Sequence) else [seconds] * len(prompts)
         labels = list(tags) if tags is not None else [None] * len(prompts)
         fit = [self._is_whole(*each) for each in zip(prompts, lengths, strict=True)]
@@ -167,12 +168,12 @@ class SentenceGenerator:
                     was if does(was) or not does(new) else new
                     for was, new in zip(old, others, strict=True)]  # fmt: skip
             plain = [i for i in plain if not all(self._does(prompts[i], m) for m in made[i])]
-            if guidance_scale is None and not self.generator.learned_step(steps):
+            if plain and guidance_scale is None and not self.generator.learned_step(steps):
                 scale = INSISTING * self.generator.network.generation.guidance_scale
         for index in (index for index, one in enumerate(fit) if not one):
             made[index] = []
             for sample in range(num_samples):
-                own = replace(sampling, seed=derived_seed(seed, 1000 * sample))
+                own = sampling(seed=derived_seed(seed, 1000 * sample))
                 motion = self._one(prompts[index], lengths[index], labels[index], own, foot_lock)
                 made[index].append(motion)
                 told(sum(map(len, made.values())))
@@ -227,7 +228,7 @@ class SentenceGenerator:
             asked, made = self._nearest(said), self._nearest(texts[0])
             same = parts[0].degrees is not None or {asked, made} in [{made}, *TWINS]
             same |= asked == UNDEAD  # who does it, and no other thing
-            apart = not parts[0].plain and (lines != [None] or not same)
+            apart = (lines != [None] or not same) and not parts[0].plain
         if apart:
             lines = self._doubts(texts, again=again)
         surer = self._reading(said).certainty >= self._reading(texts[0]).certainty
@@ -277,8 +278,9 @@ class SentenceGenerator:
     @staticmethod
     def _bowed(motion: Motion, text: str, start: int = 0, stop: int | None = None) -> Motion:
         """The motion with its head down in some frames, if a text says so of them."""
-        stop = motion.num_frames if stop is None else stop
-        return head_bowed(motion, start, stop) if bows_head(text) else motion
+        if not bows_head(text):
+            return motion
+        return head_bowed(motion, start, motion.num_frames if stop is None else stop)
 
     def _wanted(self, text: str) -> Check | None:
         """Whether a motion shows a text's nearest action, on its side; None: it cannot be seen."""
@@ -323,7 +325,7 @@ class SentenceGenerator:
 
         return miss
 
-    def _reading(self, text: str) -> Reading:
+    def _asked_for(self, text: str) -> Reading:
         """What a text alone asks for, even where it seldom comes out."""
         found, scope = self._scope_result(text), self.scope
         if found is None or scope is None or not found.nearest:
@@ -337,10 +339,8 @@ class SentenceGenerator:
         """The action that is nearest to a text, whether or not it is what the text tells of."""
         return found.nearest[0] if (found := self._scope_result(text)) and found.nearest else None
 
-    def _scope_result(self, text: str) -> ScopeResult | None:
-        if text not in self._scoped:
-            [self._scoped[text]] = self.generator.read([text])
-        return self._scoped[text]
+    def _scope_of(self, text: str) -> ScopeResult | None:
+        return self.generator.read([text])[0]
 
     def _is_whole(self, prompt: str, seconds: float) -> bool:
         """Whether one sample of the network is all there is to it, or the prompt is faulty."""

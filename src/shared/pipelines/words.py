@@ -28,6 +28,7 @@ UNITS = {  # of a sentence: what they measure, how much of it one is, and the le
     "metres": ("metres", 1.0, 0.0),
     "steps": ("steps", 1.0, 2.0),  # one step is mostly a way of saying where to
 }
+WHOLE = ("ups", "bends", "posed", "falls", "crouched")  # patterns of whole clauses
 ARROW, STANDS = " → ", "stands still"  # what then follows; who waits
 FEW = 2  # words that may follow "in place" where nothing is before it
 ARRIVES = 1.5  # seconds until what is held so many seconds is there, and until it is no more
@@ -50,6 +51,7 @@ _TAIL = re.compile(
 )  # of a verb
 _ARTICLE = re.compile(" (a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$")
 _ONES = "一二三四五六七八九"
+_VALUES = {sign: value for value, sign in enumerate(_ONES, 1)} | {"两": 2}
 _TENS = f"(?:[{_ONES}]十|十(?=[{_ONES}]))[{_ONES}]?"  # 十 alone is a word of its own
 _DIGITS = rf"(?:\d+(?:[.,]\d+)?|(?:[{_ONES}两]百零?(?:{_TENS}|[{_ONES}])?|{_TENS}))"
 # Japanese says what is not done before its denial.
@@ -81,25 +83,25 @@ class Rare:
     def _compiled(self) -> re.Pattern[str]:
         return re.compile(self.pattern, re.I)
 
-    def _may(self, text: str) -> bool:
+    def may(self, text: str) -> bool:
         said, own = _said(text)
         return not self._whole.isdisjoint(own) or any(part in said for part in self._parts)
 
     def search(self, text: str, start: int = 0) -> re.Match[str] | None:
         """As of a compiled pattern, and so are the others."""
-        return self._compiled.search(text, start) if self._may(text) else None
+        return self._compiled.search(text, start) if self.may(text) else None
 
     def match(self, text: str, start: int = 0) -> re.Match[str] | None:
-        return self._compiled.match(text, start) if self._may(text) else None
+        return self._compiled.match(text, start) if self.may(text) else None
 
     def fullmatch(self, text: str) -> re.Match[str] | None:
-        return self._compiled.fullmatch(text) if self._may(text) else None
+        return self._compiled.fullmatch(text) if self.may(text) else None
 
     def finditer(self, text: str) -> Iterator[re.Match[str]]:
-        return self._compiled.finditer(text) if self._may(text) else iter(())
+        return self._compiled.finditer(text) if self.may(text) else iter(())
 
     def sub(self, by: str | Callable[[re.Match[str]], str], text: str) -> str:
-        return self._compiled.sub(by, text) if self._may(text) else text
+        return self._compiled.sub(by, text) if self.may(text) else text
 
 
 class Words:
@@ -545,13 +547,21 @@ def value_of(text: str) -> float:
         total, last = 0, 0
         for sign in text.replace("零", ""):
             tens = {"十": 10, "百": 100}.get(sign, 0)
-            total, last = (total + (last or 1) * tens, 0) if tens else (total, _value_of_sign(sign))
+            total, last = (total + (last or 1) * tens, 0) if tens else (total, _VALUES[sign])
         return float(total + last)
     return float(text.replace(",", ".")) if number is None else float(number)
 
 
-def _value_of_sign(sign: str) -> int:
-    return 2 if sign == "两" else _ONES.index(sign) + 1
+def units_said(text: str) -> list[str]:
+    """Those of UNITS of which a text has a word."""
+    return [name for name, unit in all_words().units.items() if unit.may(text)]
+
+
+def wholly(text: str) -> list[str]:
+    """Which patterns of WHOLE a text is, end to end; what is no body falls otherwise (rain)."""
+    words = all_words()
+    found = [name for name in WHOLE if vars(words)[name].fullmatch(text)]
+    return [name for name in found if name != "falls" or words.things.search(text) is None]
 
 
 def says_often(text: str) -> bool:

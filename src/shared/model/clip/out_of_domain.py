@@ -349,11 +349,9 @@ class OutOfDomainDetector:
         cosines = _unit(embeddings) @ self.means.T
         return np.stack([self.evidence(*each) for each in zip(prompts, cosines, strict=True)])
 
-    def warning(
-        self, prompt: str, embedding: np.ndarray, closeness: float | None = None
-    ) -> str | None:
-        """A line for the user when the prompt is far from anything trained, else None."""
-        result = self.check(prompt, embedding, closeness)
+    def warning(self, prompt: str, result: ScopeResult) -> str | None:
+        """A line for the user when the prompt, of which this was found, is far from anything
+        trained, else None."""
         if result.known:
             return None
         if result.unreliable is not None:

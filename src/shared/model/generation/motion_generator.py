@@ -195,6 +195,7 @@ class TextToMotion:
         self.style_map = style_map
         self.diffusion = GaussianDiffusion(self.network.generation.diffusion()).to(self.device)
         self._encoded: dict[tuple[str, ...], TextFeatures] = {}
+        self._read: dict[str, ScopeResult] = {}
         self._told: set[str] = set()  # prompts whose warning the caller has
 
     @property
@@ -403,8 +404,9 @@ class TextToMotion:
         fresh = [prompt for prompt in dict.fromkeys(prompts) if again or prompt not in self._told]
         if self.scope is None or not fresh:
             return [None] * len(prompts)
-        rows = zip(fresh, self.encode_prompts(fresh).rows(), strict=True)
-        warnings = {prompt: self.scope.warning(prompt, *row) for prompt, row in rows}
+        found = zip(fresh, self.read(fresh), strict=True)
+        odd = ((prompt, read) for prompt, read in found if read and not read.known)
+        warnings = {prompt: self.scope.warning(prompt, read) for prompt, read in odd}
         self._told.update(prompts)
         return [warnings.get(prompt) for prompt in prompts]
 
@@ -412,8 +414,10 @@ class TextToMotion:
         """What prompts ask for, as far as the model knows; None where it has not learned that."""
         if self.scope is None or not all(prompts):
             return [None] * len(prompts)
-        rows = zip(prompts, self.encode_prompts(prompts).rows(), strict=True)
-        return [self.scope.check(prompt, *row) for prompt, row in rows]
+        if fresh := [prompt for prompt in dict.fromkeys(prompts) if prompt not in self._read]:
+            rows = zip(fresh, self.encode_prompts(fresh).rows(), strict=True)
+            self._read |= {prompt: self.scope.check(prompt, *row) for prompt, row in rows}
+        return [*map(self._read.get, prompts)]
 
     def begins_standing(self, prompt: str) -> bool:
         """Whether what a prompt asks for is done from a standing body to a standing one."""

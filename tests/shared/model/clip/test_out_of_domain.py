@@ -31,6 +31,12 @@ LABELS = [
 ]
 
 
+def warning_of(
+    scope: OutOfDomainDetector, prompt: str, embedding: np.ndarray, closeness: float | None = None
+) -> str | None:
+    return scope.warning(prompt, scope.check(prompt, embedding, closeness))
+
+
 @pytest.fixture(scope="module")
 def book():
     from src.shared.data.captions.book import CaptionBook
@@ -226,7 +232,7 @@ def test_what_comes_near_no_place_is_warned_of(scope: OutOfDomainDetector):
     assert (
         near.known
         and not far.known
-        and "far from anything" in (warning.warning(texts[0], walk, 0.2) or "")
+        and "far from anything" in (warning_of(warning, texts[0], walk, 0.2) or "")
     )
     assert near.certainty == far.certainty == scope.check(texts[0], walk).certainty
     assert warning.check(texts[0], walk).known  # a tower without places
@@ -252,10 +258,10 @@ def test_an_action_that_seldom_comes_out_is_warned_of(scope: OutOfDomainDetector
     result = measured.check("a person kicks", kick)
     assert not result.known and result.unreliable == "kick"
     assert "'kick', which this model shows in about 8% of tries" in (
-        measured.warning("a person kicks", kick) or ""
+        warning_of(measured, "a person kicks", kick) or ""
     )
-    assert measured.warning("a person bows", bow) is None
-    assert scope.warning("a person kicks", kick) is None  # nobody measured it
+    assert warning_of(measured, "a person bows", bow) is None
+    assert warning_of(scope, "a person kicks", kick) is None  # nobody measured it
     measured.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.reliability == measured.reliability
@@ -269,20 +275,20 @@ def test_a_training_caption_is_not_unknown(scope: OutOfDomainDetector, tmp_path)
     drawn = packaged_book().captions({"action": "bow"}, num=500, seed=0)["en"]
     plain = [text for text in sorted(drawn, key=len) if text.isascii() and text.islower()]
     caption = next(text for text in plain if caption_key(text) in scope.captions)
-    assert doubting.warning(caption, bow) is None
-    assert doubting.warning(caption.capitalize() + "!", bow) is None
+    assert warning_of(doubting, caption, bow) is None
+    assert warning_of(doubting, caption.capitalize() + "!", bow) is None
     assert doubting.check(caption, bow).certainty > 0
-    assert "far from anything" in (doubting.warning(f"{caption} in an office", bow) or "")
+    assert "far from anything" in (warning_of(doubting, f"{caption} in an office", bow) or "")
     result = doubting.check(caption, kick)
     assert not result.known and result.mistaken == "bow" and result.certainty < 0
-    told = doubting.warning(caption, kick) or ""
+    told = warning_of(doubting, caption, kick) or ""
     assert "is a training caption of 'bow' that this model takes for 'kick'" in told
     assert "far from anything" not in told
     doubting.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and loaded.captions == scope.captions
     older = replace(doubting, captions={})
-    assert "far from anything" in (older.warning(caption, bow) or "")
+    assert "far from anything" in (warning_of(older, caption, bow) or "")
     older.save_pretrained(tmp_path)
     loaded = OutOfDomainDetector.from_pretrained(tmp_path)
     assert loaded is not None and not loaded.captions
