@@ -433,7 +433,7 @@ def distances_to_line(places: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 STANDING = 0.25  # m/s; a prompt that moves less has no way of going
-WALK_RATIO = 0.0049  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
+WALK_RATIO = 0.0062  # metres of a step by steps a minute, nearly constant (Sekiya & Nagasaki 1998)
 SWAY_SMOOTHING = 0.4  # seconds, standard deviation: what is slower is the way it goes, not a step
 
 

@@ -10,7 +10,7 @@ const MAX_SUPPORT = 0.08, MAX_VERTICAL = 0.5, STEEP = 0.7, FALL = -3.0, RUNNING 
 const MAX_GAP_SECONDS = 2 / 30, MIN_PLANT_SECONDS = 3 / 30, MIN_SWING_SECONDS = 8 / 30;
 const SOONER_SECONDS = 12 / 30, BLEND_SECONDS = 9 / 30, STEP_SECONDS = 8 / 30;
 const LIFT = 0.1, SLOPE = 0.1, SOFT = 0.01, GIVE = 0.05, ROLL = 0.005, MAX_DRAG = 0.22;
-const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.9, SWING = 150;
+const MAX_SLOPE = 2.5, UNDER = [0, 0.5, 1], MAX_REACH = 0.94, SWING = 150;
 
 /** Shifts [2][T] of the balls [2][T] and whether each foot stands [2][T]. */
 export function footShifts(balls, hips, contacts, fps, kept) {

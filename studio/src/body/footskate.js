@@ -11,7 +11,7 @@ import { WIDTH } from "./features.js";
 import { FEET, JOINTS, LEG_LENGTH, LEGS, pose, SKELETON } from "./skeleton.js";
 
 const MIN_CORRECTION = 1e-4, FIRST = 1.5 / 30, LAST = 0.5 / 30, EASE = 10;
-const MAX_STRETCH = 0.995, RISE_AT = 0.97, MAX_RISE = 0.8, STRAIGHT = 0.02, BENT = 0.1;
+const MAX_STRETCH = 0.995, RISE_AT = 0.97, MAX_RISE = 0.8, RISE_SECONDS = 1 / 30, STRAIGHT = 0.02, BENT = 0.1;
 
 /** Which leg has a known joint: entries [T,R,C] -> [2][T]. */
 export function keptLegs(known) {
@@ -34,25 +34,27 @@ export function lockFeet(motion, kept = null) {
   const claims = [0, 1].map((side) => Array.from({ length: frames }, (_, t) => motion.contacts[t * 2 + side]));
   const { shifts, planted } = footShifts(balls, hips, claims, motion.fps, kept ?? nothingKept(frames));
   const quaternions = motion.quaternions.slice(), contacts = new Float32Array(frames * 2);
-  for (const side of [0, 1])
+  for (const side of [0, 1]) {
+    const moves = shifts[side].map((shift) => norm(shift) > MIN_CORRECTION);
+    const rises = shifts[side].map((shift, t) => (moves[t] ? heelRise(side, poses[t], shift) : { angle: 0 }));
+    const angles = gaussian(rises.map(({ angle }) => angle), RISE_SECONDS * motion.fps);
     for (let t = 0; t < frames; t++) {
       contacts[t * 2 + side] = kept?.[side][t] ? claims[side][t] : Number(planted[side][t]);
-      if (norm(shifts[side][t]) <= MIN_CORRECTION) continue;
-      for (const [joint, q] of movedLeg(side, poses[t], shifts[side][t])) {
+      if (!moves[t]) continue;
+      for (const [joint, q] of movedLeg(side, poses[t], shifts[side][t], axisTurn(rises[t].axis, angles[t]))) {
         const at = (t * JOINTS + joint) * 4;
         let along = 0;
         for (let i = 0; i < 4; i++) along += q[i] * motion.quaternions[at + i];
         quaternions.set(along < 0 ? q.map((x) => -x) : q, at);
       }
     }
+  }
   return { ...motion, quaternions, contacts };
 }
 
-function movedLeg(side, { positions, world }, shift) {
+function movedLeg(side, { positions, world }, shift, rise) {
   const [hip, knee, ankle, ball] = LEGS[side];
   const target = add(positions[ball], shift), lever = sub(positions[ankle], positions[ball]);
-  const longest = Math.max(norm(sub(positions[ankle], positions[hip])), RISE_AT * LEG_LENGTH);
-  const rise = heelRise(positions[hip], target, lever, longest);
   const [thigh, shin] = twoBones(
     positions[hip], world[hip], world[knee], SKELETON.offsets[knee], SKELETON.offsets[ankle],
     add(target, apply(rise, lever)));
@@ -109,11 +111,14 @@ function awayFrom(kept) {
 
 // ---------------------------------------------------------------- one leg
 
-function heelRise(hip, ball, lever, longest) {
-  const up = sub(hip, ball), arm = norm(lever), distance = norm(up);
+/** Axis and angle of the smallest rotation of a foot about its ball that lets the leg reach. */
+function heelRise(side, { positions }, shift) {
+  const [hip, , ankle, ball] = LEGS[side].map((joint) => positions[joint]);
+  const longest = Math.max(norm(sub(ankle, hip)), RISE_AT * LEG_LENGTH), lever = sub(ankle, ball);
+  const up = sub(hip, add(ball, shift)), arm = norm(lever), distance = norm(up);
   const cosine = (arm * arm + distance * distance - longest * longest) / (2 * arm * distance);
   const axis = cross(lever, up), angle = Math.atan2(norm(axis), dot(lever, up));
-  return axisTurn(unit(axis), clamp(angle - Math.acos(clamp(cosine, -1, 1)), 0, MAX_RISE));
+  return { axis: unit(axis), angle: clamp(angle - Math.acos(clamp(cosine, -1, 1)), 0, MAX_RISE) };
 }
 
 export function twoBones(hip, thigh, shin, upper, lower, target, hinge = [-1, 0, 0]) {

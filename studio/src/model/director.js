@@ -12,7 +12,7 @@ import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0049, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
+const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0062, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;

@@ -43,7 +43,7 @@ MAX_DRAG = 0.22  # metres that a planted foot may be from where it was; further 
 MAX_SLOPE = 2.5  # m/s at which a correction may start from a plant
 UNDER = (0.0, 0.5, 1.0)  # shares of the way from where a foot was to below its hip
 SWING = 150.0  # m/s² with which a foot gets from one plant to the next, at most
-MAX_REACH = 0.9  # metres from the hip to the ball of a planted foot, its heel up
+MAX_REACH = 0.94  # metres from the hip to the ball of a planted foot, leg stretched and heel up
 ROUNDING = 1e-9  # of a mean in metres, however it is summed
 
 

@@ -35,6 +35,7 @@ EASE = 10  # frames until a leg is held as if nothing of it had been kept
 MAX_STRETCH = 0.995  # of the leg's length; beyond it a leg is only as long as it already was
 RISE_AT = 0.97  # of the leg's length, from which on the heel rises instead
 MAX_RISE = 0.8  # radians that a foot turns about its ball
+RISE_SECONDS = 1 / 30  # standard deviation of its smoothing: it came and went within a frame
 KNEE = (-1.0, 0.0, 0.0)  # its hinge: it bends towards +Z
 STRAIGHT, BENT = 0.02, 0.1  # sine between which the knee's own plane takes over from the hinge
 
@@ -58,10 +59,15 @@ def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
     locked = motion.quaternions.copy()
     at, side = np.nonzero(np.linalg.norm(shifts, axis=-1) > MIN_CORRECTION)  # of N legs to move
     if len(at):
-        joints = np.array(LEGS)[side]  # N 4
-        solved = _move_legs(
-            joints, positions[at], world[at], offsets, torch.as_tensor(shifts[at, side])
-        )
+        joints, shift = np.array(LEGS)[side], torch.as_tensor(shifts[at, side])  # N 4, N 3
+        hip, _, ankle, ball = _of_legs(positions[at], joints)
+        longest = (ankle - hip).norm(dim=-1).clip(min=RISE_AT * LEG_LENGTH)  # with its heel down
+        axis, angle = heel_rise(hip, ball + shift, ankle - ball, longest)
+        angles = np.zeros(shifts.shape[:2])
+        angles[at, side] = angle.numpy()
+        smooth = smoothed(angles, RISE_SECONDS * motion.fps)[at, side]
+        rise = axis_turn(axis, torch.as_tensor(smooth))
+        solved = _move_legs(joints, positions[at], world[at], offsets, shift, rise)
         before = quaternions[at[:, None], joints]
         sign = torch.where((solved * before).sum(-1, keepdim=True) < 0, -1.0, 1.0)
         locked[at[:, None], joints] = (solved * sign).float().numpy()
@@ -71,8 +77,20 @@ def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
     return replace(motion, quaternions=locked, contacts=contacts)
 
 
+def _of_legs(values: Tensor, joints: np.ndarray) -> tuple[Tensor, ...]:
+    """Of values [N,22,...] those of hip, knee, ankle and ball of each leg, joints [N,4]."""
+    return values[torch.as_tensor(np.arange(len(joints)))[:, None], torch.as_tensor(joints)].unbind(
+        1
+    )
+
+
 def _move_legs(
-    joints: np.ndarray, positions: Tensor, world: Tensor, offsets: Tensor, shift: Tensor
+    joints: np.ndarray,
+    positions: Tensor,
+    world: Tensor,
+    offsets: Tensor,
+    shift: Tensor,
+    rise: Tensor,
 ) -> Tensor:
     """Local quaternions [N,4,4] of the joints of legs whose balls move by `shift` [N,3].
 
@@ -82,14 +100,10 @@ def _move_legs(
         world: world joint rotations [N,22,3,3].
         offsets: of the skeleton [22,3]; its legs are alike.
         shift: metres.
+        rise: rotations [N,3,3] of their feet about the balls.
     """
-    legs = torch.as_tensor(np.arange(len(joints)))[:, None], torch.as_tensor(joints)
-    hip, _, ankle, ball = positions[legs].unbind(1)
-    turned_hip, turned_knee, turned_ankle, turned_ball = world[legs].unbind(1)
-    target = ball + shift
-    lever = ankle - ball
-    longest = (ankle - hip).norm(dim=-1).clip(min=RISE_AT * LEG_LENGTH)  # with its heel down
-    rise = heel_rise(hip, target, lever, longest)
+    hip, _, ankle, ball = _of_legs(positions, joints)
+    turned_hip, turned_knee, turned_ankle, turned_ball = _of_legs(world, joints)
     _, knee, foot, _ = LEGS[0]
     thigh, shin = two_bone_ik(
         hip,
@@ -97,7 +111,7 @@ def _move_legs(
         turned_knee,
         offsets[knee],
         offsets[foot],
-        target + (rise @ lever[..., None]).squeeze(-1),
+        ball + shift + (rise @ (ankle - ball)[..., None]).squeeze(-1),
     )
     pelvis = world[:, PARENTS[LEGS[0][0]]]
     above = torch.stack((pelvis, thigh, shin, rise @ turned_ankle), 1)
@@ -145,11 +159,12 @@ def ease_from_kept(loose: Motion, locked: Motion, kept: np.ndarray) -> Motion:
 # ---------------------------------------------------------------- one leg
 
 
-def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tensor:
-    """The smallest rotation [...,3,3] of a foot about its ball that lets the leg reach.
+def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> tuple[Tensor, Tensor]:
+    """Axis [...,3] and angle [...] in radians of the smallest rotation of a foot about its ball
+    that lets the leg reach.
 
-    The law of cosines in the triangle of hip, ball and ankle; the identity where the leg is long
-    enough, and never more than `MAX_RISE`.
+    The law of cosines in the triangle of hip, ball and ankle; 0 where the leg is long enough, and
+    never more than `MAX_RISE`.
 
     Args:
         hip: world positions [...,3], metres.
@@ -163,7 +178,7 @@ def heel_rise(hip: Tensor, ball: Tensor, lever: Tensor, longest: Tensor) -> Tens
     axis = torch.linalg.cross(lever, up)
     angle = torch.atan2(axis.norm(dim=-1), (lever * up).sum(-1))
     excess = (angle - torch.acos(cosine.clip(-1, 1))).clip(0, MAX_RISE)
-    return axis_turn(F.normalize(axis, dim=-1), excess)
+    return F.normalize(axis, dim=-1), excess
 
 
 def two_bone_ik(

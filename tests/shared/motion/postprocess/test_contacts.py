@@ -27,6 +27,7 @@ from src.shared.motion.postprocess.contacts import (
     standing,
 )
 from src.shared.motion.postprocess.footskate import MAX_RISE, heel_rise
+from src.shared.motion.rotations import axis_turn
 from src.shared.motion.skeleton import REST_FOOT_HEIGHT
 
 FPS = 30.0
@@ -199,7 +200,7 @@ def test_a_heel_rises_no_further_than_needed(
     hip = torch.tensor([away[0], height, away[1]], dtype=torch.float64)
     ball = torch.tensor([0.0, REST_FOOT_HEIGHT, 0.0], dtype=torch.float64)
     lever = torch.tensor([0.0, 0.06, -0.13], dtype=torch.float64)
-    turn = heel_rise(hip, ball, lever, torch.tensor(longest, dtype=torch.float64))
+    turn = axis_turn(*heel_rise(hip, ball, lever, torch.tensor(longest, dtype=torch.float64)))
     before = float((ball + lever - hip).norm())
     after = float((ball + turn @ lever - hip).norm())
     angle = float(torch.arccos(((turn.trace() - 1) / 2).clamp(-1, 1)))
