@@ -3,7 +3,7 @@
 
 import { unit } from "./tower.js";
 
-const SAME_STEM = 0.65, MIN_STEM = 4, MIN_SEEN = 0.5, NEAREST = 3, RELIABLE = 0.5;
+const SAME_STEM = 0.65, MIN_STEM = 4, MIN_SEEN = 0.5, NEAREST = 3, RELIABLE = 0.5, BARE = 3, BARELY = 0.1;
 const TWINS = [["bye", "wave"]]; // one gesture under two names
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u, HAN = /[\u3400-\u9fff]/gu;
 const RUNS = /[\u3040-\u30ff\u3400-\u9fff]+|(?:(?![\u3040-\u30ff\u3400-\u9fff])[\p{L}\p{N}_])+/gu;
@@ -58,6 +58,8 @@ export class Scope {
     let certainty = weights ? dot(evidence, weights) : this.familiar(words) ? 1 : -1;
     if (this.meta["min-cosine"] != null && Math.max(...cosines) >= this.meta["min-cosine"]) certainty = Math.max(certainty, 1);
     const known = (told && closeness != null ? dot([closeness, ...evidence], told) : certainty) > 0;
+    const bare = words.size <= BARE && [...words].some((word) => String(this.keyWords.get(word)) === String([ranked[0]]));
+    if (known && bare) certainty = Math.max(certainty, BARELY);
     const nearest = ranked.slice(0, NEAREST).map((row) => actions[row]);
     if (known && nearest.length && (reliability[nearest[0]] ?? 1) < RELIABLE)
       return { known: false, nearest, unreliable: nearest[0], certainty };

@@ -445,6 +445,30 @@ def test_a_walk_turns_a_corner_or_goes_round(starter: TextToMotion):
     assert abs(turn_of(limbs)) < 45 and abs(turn_of(straight)) < 45
 
 
+@pytest.mark.parametrize(
+    ("prompt", "actions"),
+    [
+        ("Geh drei Schritte zurück und verbeuge dich", ["walk", "bow"]),
+        ("verbeuge dich und klatsche", ["bow", "clap"]),
+        ("wink und nick", ["wave", "nod"]),
+        ("marschiere und salutiere", ["walk", "salute"]),
+        ("jumps up and down with joy", ["jump"]),
+        ("lies down and falls asleep", ["lie-down", "sleep"]),
+    ],
+)
+def test_bare_orders_and_idioms_are_sure(
+    prompt: str, actions: list[str], loaded: TextToMotion
+) -> None:
+    sentences = SentenceGenerator(loaded)
+    assert [sentences._nearest(each.text) for each in sentences.clauses(prompt)] == actions
+    assert sentences.scope_warnings([prompt]) == [None]
+
+
+@pytest.mark.parametrize("prompt", ["walks in a figure eight", "does the moonwalk", "il slalome"])
+def test_ways_that_nobody_taught_are_told(prompt: str, loaded: TextToMotion) -> None:
+    assert SentenceGenerator(loaded).scope_warnings([prompt]) != [None]
+
+
 @pytest.mark.parametrize("prompt", ["a person walks forward", "a woman walks quickly"])
 def test_only_feet_that_stand_are_planted(prompt: str, loaded: TextToMotion) -> None:
     [free] = SentenceGenerator(loaded).generate([prompt], seed=2, foot_lock=False)

@@ -133,7 +133,8 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
      "the priest marches", "nods once", "turns around and walks back", "a zombie dies", "crouch",
      "walks forward, then kicks", "runs, then kicks", "punches, then kicks",
      "sits down, then stands up", "walks while clapping", "walk like a zombie", "gets up",
-     "walks, head down", "walks for 8 seconds", "walks, then walks with his head down, then waves"],
+     "walks, head down", "walks for 8 seconds", "verbeuge dich und klatsche",
+     "walks, then walks with his head down, then waves"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(
     prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path

@@ -50,6 +50,7 @@ MIN_TELLING = 0.5  # of log A, the evidence of a word that one action alone uses
 SAME_STEM = 0.65  # share of the longer word that two forms of one word begin alike
 MIN_STEM = 4  # letters
 MIN_SEEN = 0.5  # share of words seen in training that a likeness to a key word needs around it
+BARE, BARELY = 3, 0.1  # words of an order without anybody, and how sure it is at least
 NUM_NEAREST = 3
 TWINS = ({"wave", "bye"},)  # one gesture under two names
 RELIABLE = 0.5  # share of tries in which an action has to come out to be known
@@ -272,7 +273,10 @@ class OutOfDomainDetector:
         known = certainty > 0
         if self.warning_weights is not None and closeness is not None:
             known = float(np.array([closeness, *evidence]) @ self.warning_weights) > 0
-        ranked = self.ranked(cosines)
+        ranked, said = self.ranked(cosines), words_of(prompt)
+        keys = [self.key_words.get(word) for word in said] if len(said) <= BARE else []
+        if known and tuple(ranked[:1]) in keys:  # "verbeuge dich": captions have somebody before it
+            certainty = max(certainty, BARELY)
         nearest = [self.actions[index] for index in ranked[:NUM_NEAREST]]
         own = self.captions.get(caption_key(prompt))
         if own is not None and not known:
