@@ -9,6 +9,7 @@ import {
   decodeFeatures, framesOf, headings, joinArrays, LEFT_CONTACT, ORIGIN, placeOf, ROOT, WIDTH,
 } from "./features.js";
 import { easeFromKept, keptLegs, lockCarriedFeet, lockFeet, twoBones } from "./footskate.js";
+import { gaussian, gradient, maximum, round } from "./curves.js";
 import { ARMS, FPS, INDEX, JOINTS, pose, SKELETON } from "./skeleton.js";
 
 /** Average over time of [T,R,C]; the ends repeat, contacts stay. */
@@ -62,7 +63,7 @@ export function postProcess(features, settings, { known = null, text = "", place
 
 // ---------------------------------------------------------------- arms at rest
 
-const REST_FADE = 0.5;
+const REST_FADE = 0.5, HURRY = 5.5, NEAR_END = 0.7, WIDER = 0.2, SLOWED = 0.09;
 const HANGING = { collar: [0, 0, 0], shoulder: [0, 0, -1.37], elbow: [0, -0.38, 0], wrist: [0, 0, 0] };
 
 /** Arms that hang in the first and last frame, where they did not. */
@@ -87,7 +88,31 @@ export function restToRest(motion, cuts = null, held = false) {
         }
     }
   }
-  return { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };
+  const rested = { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };
+  return cuts ? rested : unhurried(rested, held);
+}
+
+/** Arms that come up at the begin and down at the end no faster than arms do. */
+function unhurried(motion, held) {
+  const { frames, fps } = motion, quaternions = motion.quaternions.slice(), width = JOINTS * 4;
+  const near = Math.min(round(NEAR_END * fps), Math.floor(frames / 6));
+  const poses = Array.from({ length: frames }, (_, t) => pose(motion, t).positions);
+  for (const arm of ARMS) {
+    const paths = [0, 1, 2].map((i) => gradient(poses.map((positions) => positions[arm.at(-1)][i] - positions[0][i])));
+    const hurries = poses.map((_, t) => Number((t < near || (t >= frames - near && !held)) && norm(paths.map((path) => path[t])) * fps > HURRY));
+    const wide = maximum(hurries, 2 * round(WIDER * fps) + 1);
+    if (!wide.some(Boolean)) continue;
+    const share = gaussian(wide, SLOWED * fps);
+    for (const joint of arm) {
+      const of = (t) => Array.from(motion.quaternions.subarray(t * width + joint * 4, t * width + joint * 4 + 4)), own = poses.map((_, t) => of(t));
+      const rows = [0, 1, 2, 3].map((i) => gaussian(own.map((q) => q[i]), SLOWED * fps));
+      for (let t = 0; t < frames; t++) {
+        const mean = rows.map((row) => row[t]), size = Math.hypot(...mean);
+        quaternions.set(slerp(own[t], mean.map((x) => x / size), share[t]), t * width + joint * 4);
+      }
+    }
+  }
+  return { ...motion, quaternions };
 }
 
 // ---------------------------------------------------------------- hands that meet

@@ -469,6 +469,14 @@ def test_ways_that_nobody_taught_are_told(prompt: str, loaded: TextToMotion) -> 
     assert SentenceGenerator(loaded).scope_warnings([prompt]) != [None]
 
 
+@pytest.mark.parametrize("prompt", ["pumps a fist", "a person cheers"])
+def test_arms_come_up_and_down_as_arms_do(prompt: str, loaded: TextToMotion) -> None:
+    [motion] = SentenceGenerator(loaded).generate([prompt])
+    wrist = motion.positions()[:, JOINT_INDEX["r_wrist"]] - motion.positions()[:, 0]
+    speed = np.linalg.norm(np.diff(wrist, axis=0), axis=1) * motion.fps
+    assert 2 < speed[-21:].max() < 6  # were 8 and 9 m/s
+
+
 @pytest.mark.parametrize("prompt", ["a person walks forward", "a woman walks quickly"])
 def test_only_feet_that_stand_are_planted(prompt: str, loaded: TextToMotion) -> None:
     [free] = SentenceGenerator(loaded).generate([prompt], seed=2, foot_lock=False)

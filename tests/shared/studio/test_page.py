@@ -133,7 +133,7 @@ def test_what_a_number_alone_makes_known_is_told_as_by_the_command(
      "the priest marches", "nods once", "turns around and walks back", "a zombie dies", "crouch",
      "walks forward, then kicks", "runs, then kicks", "punches, then kicks",
      "sits down, then stands up", "walks while clapping", "walk like a zombie", "gets up",
-     "walks, head down", "walks for 8 seconds", "verbeuge dich und klatsche",
+     "walks, head down", "walks for 8 seconds", "verbeuge dich und klatsche", "a person cheers",
      "walks, then walks with his head down, then waves"],
 )  # fmt: skip
 def test_what_is_led_or_done_once_is_so_as_on_the_command_line(

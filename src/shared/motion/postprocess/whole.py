@@ -17,6 +17,7 @@ import numpy as np
 from ...config_schema import PostProcessingConfig
 from ...tensors import F, Tensor, nn, torch
 from ..features import LEFT_CONTACT, ORIGIN, ROOT_ROW, Place, decode_features, headings
+from ..filters import greatest, smoothed
 from ..motion import Motion
 from ..rotations import (
     forward_kinematics,
@@ -164,7 +165,11 @@ def without_heading(features: Tensor) -> Tensor:
 
 # ---------------------------------------------------------------- arms at rest
 
+ARMS = [[JOINT_INDEX[joint] for joint in LIMBS[arm]] for arm in ("left-arm", "right-arm")]
 REST_FADE = 0.5  # seconds in which an arm comes down
+HURRY = 5.5  # m/s of a wrist about the pelvis, beyond which no arm comes up or down for a gesture
+NEAR_END, WIDER = 0.7, 0.2  # seconds: of an end; around frames that are so fast
+SLOWED = 0.09  # seconds, standard deviation of the average over time
 # Rotation vectors of a left arm that hangs beside the body, out of the T-pose; mirrored in y and z.
 _HANGING = {"collar": (0.0, 0.0, 0.0), "shoulder": (0.0, 0.0, -1.37), "elbow": (0.0, -0.38, 0.0),
             "wrist": (0.0, 0.0, 0.0)}  # fmt: skip
@@ -227,13 +232,35 @@ def rest_to_rest(
         moved = quaternion_slerp(now, hung, torch.as_tensor(weights).float()[:, None])
         quaternions[at, joints[:, None]] = moved.numpy()
     signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
-    return replace(motion, quaternions=signed)
+    rested = replace(motion, quaternions=signed)
+    return rested if cuts is not None else _unhurried(rested, held=held)
+
+
+def _unhurried(motion: Motion, *, held: bool) -> Motion:
+    """The motion with arms that come up at its begin and down at its end no faster than arms do: a
+    wrist that is faster than HURRY there has its arm's rotations averaged over time."""
+    positions, quaternions = motion.positions(), motion.quaternions.copy()
+    near = min(round(NEAR_END * motion.fps), motion.num_frames // 6)
+    ends = np.zeros(motion.num_frames, dtype=bool)
+    ends[:near], ends[motion.num_frames - near :] = True, not held
+    for arm in ARMS:
+        wrist = positions[:, arm[-1]] - positions[:, 0]
+        speed = np.linalg.norm(np.gradient(wrist, axis=0), axis=1) * motion.fps
+        hurries = greatest(
+            ((speed > HURRY) & ends).astype(float), 2 * round(WIDER * motion.fps) + 1
+        )
+        if not hurries.any():
+            continue
+        share = torch.as_tensor(smoothed(hurries, SLOWED * motion.fps))[:, None, None]
+        rows = torch.as_tensor(quaternions[:, arm], dtype=torch.float64)
+        mean = F.normalize(torch.as_tensor(smoothed(rows.numpy(), SLOWED * motion.fps)), dim=-1)
+        quaternions[:, arm] = quaternion_slerp(rows, mean, share).float().numpy()
+    return replace(motion, quaternions=quaternions)
 
 
 # ---------------------------------------------------------------- hands that meet
 
 TOUCH, NEAR, SWING = 0.09, 0.35, 0.15  # metres of wrists: hands touch, nearly do; swing
-ARMS = [[JOINT_INDEX[joint] for joint in LIMBS[arm]] for arm in ("left-arm", "right-arm")]
 
 
 def hands_meet(motion: Motion, start: int, stop: int) -> Motion:
