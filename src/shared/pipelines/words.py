@@ -513,18 +513,19 @@ def _others(text: str, scope: OutOfDomainDetector) -> str:
     said = [_between_blanks(text, loose=loose) for loose in (False, True)]
     names = [_between_blanks(name, loose=False) for name in scope.actions]  # some are captions
     found = sorted(
-        (said[loose].index(words), -len(words), words, said[loose])
+        (said[loose].index(words), -len(words), words, said[loose], {*actions} & {*scope.actions})
         for actions, words, loose in unlearned_words()
         if words in said[loose]
-        and not any(action in scope.actions for action in actions)
         and not any(words in name for name in names)
         and not (scope.captions and scope.words.issuperset(words_of(words)))
     )
     asked, end = list[str](), 0
-    for start, size, words, read in found:
-        if start < end:  # a part of what is named already
+    for start, size, words, read, learned in found:
+        if start < end:  # a part of what is named, or learned, already
             continue
         end = start - size - words.startswith(" ")  # words share the blank between them
+        if learned:
+            continue
         if words.startswith(" "):  # as it is written, to the end of its last word
             first, last = len(read[:start].split()), len(read[:end].split())
             words = _ARTICLE.sub("", plain_text(text)[spans[first][0] : spans[last - 1][1]])

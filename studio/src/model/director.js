@@ -91,18 +91,19 @@ export class Director {
     const known = new Set(actions), names = actions.map((name) => betweenBlanks(name, false)); // some are captions
     const taught = (words) => this.settings.ownWords && [...wordsOf(words)].every((word) => this.scope.words.has(word));
     const found = this.settings.unlearned
-      .filter(([others, words, loose]) => said[Number(loose)].includes(words) && !others.some((action) => known.has(action))
+      .filter(([, words, loose]) => said[Number(loose)].includes(words)
         && !names.some((name) => name.includes(words)) && !taught(words))
-      .map(([, words, loose]) => ({ start: said[Number(loose)].indexOf(words), words, read: said[Number(loose)] }))
+      .map(([others, words, loose]) => ({ start: said[Number(loose)].indexOf(words), words, read: said[Number(loose)], learned: others.some((action) => known.has(action)) }))
       .sort((a, b) => a.start - b.start || b.words.length - a.words.length);
     const line = (asked) => `“${text}” asks ${asked}, which this model has not learned.`;
     if (this.reader.turnsHead(text)) return line("the head alone to turn");
     const spans = [...plain(text).matchAll(WORD)].map((word) => [word.index, word.index + word[0].length]), asked = [];
     let end = 0;
-    for (const { start, words, read } of found) {
-      if (start < end) continue; // a part of what is named already
+    for (const { start, words, read, learned } of found) {
+      if (start < end) continue; // a part of what is named, or learned, already
       const whole = words.startsWith(" ");
       end = start + words.length - Number(whole); // words share the blank between them
+      if (learned) continue;
       if (whole) asked.push(plain(text).slice(spans[countOf(read.slice(0, start))][0], spans[countOf(read.slice(0, end)) - 1][1]).replace(ARTICLE, ""));
       else asked.push(words + read.slice(end).match(TAIL)[0]);
     }

@@ -454,6 +454,10 @@ def test_a_walk_turns_a_corner_or_goes_round(starter: TextToMotion):
         ("marschiere und salutiere", ["walk", "salute"]),
         ("jumps up and down with joy", ["jump"]),
         ("lies down and falls asleep", ["lie-down", "sleep"]),
+        ("claps his hands and cheers", ["clap", "cheer"]),
+        ("a person stomps", ["stomp"]),
+        ("pulls a lever", ["pull-lever"]),  # pulls, elsewhere, are not learned
+        ("投げキスをする", ["blow-kiss"]),
     ],
 )
 def test_bare_orders_and_idioms_are_sure(
