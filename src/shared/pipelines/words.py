@@ -511,12 +511,11 @@ def unlearned(text: str, scope: OutOfDomainDetector | None) -> str | None:
 def _others(text: str, scope: OutOfDomainDetector) -> str:
     spans = [word.span() for word in WORD.finditer(plain_text(text))]
     said = [_between_blanks(text, loose=loose) for loose in (False, True)]
-    names = [_between_blanks(name, loose=False) for name in scope.actions]  # some are captions
     found = sorted(
         (said[loose].index(words), -len(words), words, said[loose], {*actions} & {*scope.actions})
         for actions, words, loose in unlearned_words()
         if words in said[loose]
-        and not any(words in name for name in names)
+        and not any(words in _between_blanks(name, loose=False) for name in scope.actions)
         and not (scope.captions and scope.words.issuperset(words_of(words)))
     )
     asked, end = list[str](), 0
