@@ -124,7 +124,7 @@ def prompted(request: Request) -> dict[str, Any]:
     _ = generator.text, generator.tower if several else None
     clock.lap("load")
     warnings = warn(generator.sentences.scope_warnings(prompts))
-    kept, number = request.kept, request.num_samples
+    kept, number, sampling = request.kept, request.num_samples, request.sampling
     places = files.motion_files(prompts, kept, formats, request.out)
     whole = [all(path.exists() for path in each.values()) for each in places]
     done = [request.resume and all(whole[at * kept :][:kept]) for at in range(len(prompts))]
@@ -148,7 +148,7 @@ def prompted(request: Request) -> dict[str, Any]:
                 return_all=request.return_all,
                 seconds=[lengths[at] for at in group],
                 tags=None if tags is None else [tags[at] for at in group],
-                sampling=request.sampling,
+                sampling=sampling,
                 foot_lock=request.foot_lock,
                 progress=partial(_onward, progress, before, total),
             )

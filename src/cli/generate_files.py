@@ -127,7 +127,7 @@ def write_motions(
             rows.append(
                 {
                     "prompt": motion.text,
-                    "frames": motion.num_frames,
+                    "frames": len(motion.root_position),
                     "fps": motion.fps,
                     "files": named(paths),
                 }

@@ -89,14 +89,13 @@ export function restToRest(motion, cuts = null, held = false) {
     }
   }
   const rested = { ...motion, quaternions: continuous(quaternions, JOINTS * 4) };
-  return cuts ? rested : unhurried(rested, held);
+  return cuts ? rested : unhurried(rested, Array.from({ length: motion.frames }, (_, t) => pose(motion, t).positions), held);
 }
 
-/** Arms that come up at the begin and down at the end no faster than arms do. */
-function unhurried(motion, held) {
+/** Arms that come up at the begin and down at the end, by these positions, no faster than arms do. */
+function unhurried(motion, poses, held) {
   const { frames, fps } = motion, quaternions = motion.quaternions.slice(), width = JOINTS * 4;
   const near = Math.min(round(NEAR_END * fps), Math.floor(frames / 6));
-  const poses = Array.from({ length: frames }, (_, t) => pose(motion, t).positions);
   for (const arm of ARMS) {
     const paths = [0, 1, 2].map((i) => gradient(poses.map((positions) => positions[arm.at(-1)][i] - positions[0][i])));
     const hurries = poses.map((_, t) => Number((t < near || (t >= frames - near && !held)) && norm(paths.map((path) => path[t])) * fps > HURRY));

@@ -213,7 +213,8 @@ def rest_to_rest(
         return motion
     whole = [[(0, 1)], [(last, -1)]][: 1 if held else 2]
     ends = whole if cuts is None else [[(c - 1, -1), (c, 1)] for c in cuts]
-    heights = motion.positions()[:, :, 1]
+    positions = motion.positions()
+    heights = positions[:, :, 1]
     quaternions = motion.quaternions.copy()
     left = np.linspace(1.0, 0.0, frames + 1)[:-1]  # from an end inwards
     weights = left**3 * (10 - 15 * left + 6 * left**2)  # [frames], the minimum-jerk profile
@@ -233,25 +234,25 @@ def rest_to_rest(
         quaternions[at, joints[:, None]] = moved.numpy()
     signed = quaternion_continuous(torch.as_tensor(quaternions), dim=0).numpy()
     rested = replace(motion, quaternions=signed)
-    return rested if cuts is not None else _unhurried(rested, held=held)
+    return rested if cuts is not None else _unhurried(rested, positions, held=held)
 
 
-def _unhurried(motion: Motion, *, held: bool) -> Motion:
+def _unhurried(motion: Motion, positions: np.ndarray, *, held: bool) -> Motion:
     """The motion with arms that come up at its begin and down at its end no faster than arms do: a
-    wrist that is faster than HURRY there has its arm's rotations averaged over time."""
-    positions, quaternions = motion.positions(), motion.quaternions.copy()
-    near = min(round(NEAR_END * motion.fps), motion.num_frames // 6)
-    ends = np.zeros(motion.num_frames, dtype=bool)
-    ends[:near], ends[motion.num_frames - near :] = True, not held
+    wrist that is faster than HURRY there, by positions [T,22,3], has its arm's rotations averaged
+    over time."""
+    quaternions, frames = motion.quaternions.copy(), len(positions)
+    near = min(round(NEAR_END * motion.fps), frames // 6)
+    ends = np.zeros(frames, dtype=bool)
+    ends[:near], ends[frames - near :] = True, not held
     for arm in ARMS:
         wrist = positions[:, arm[-1]] - positions[:, 0]
         speed = np.linalg.norm(np.gradient(wrist, axis=0), axis=1) * motion.fps
-        hurries = greatest(
-            ((speed > HURRY) & ends).astype(float), 2 * round(WIDER * motion.fps) + 1
-        )
+        hurries = (speed > HURRY) & ends
         if not hurries.any():
             continue
-        share = torch.as_tensor(smoothed(hurries, SLOWED * motion.fps))[:, None, None]
+        wide = greatest(hurries.astype(float), 2 * round(WIDER * motion.fps) + 1)
+        share = torch.as_tensor(smoothed(wide, SLOWED * motion.fps))[:, None, None]
         rows = torch.as_tensor(quaternions[:, arm], dtype=torch.float64)
         mean = F.normalize(torch.as_tensor(smoothed(rows.numpy(), SLOWED * motion.fps)), dim=-1)
         quaternions[:, arm] = quaternion_slerp(rows, mean, share).float().numpy()
