@@ -40,7 +40,8 @@ def _read(path: Path) -> None:
         case "scope":
             scope = OutOfDomainDetector.from_pretrained(path.parent)
             assert scope is not None
-            scope.warning("a person juggles", np.ones(scope.means.shape[1], np.float32))
+            there = np.ones(scope.means.shape[1], np.float32)
+            scope.warning("a person juggles", scope.check("a person juggles", there))
         case "style":
             style = StyleMap.from_pretrained(path.parent)
             assert style is not None
