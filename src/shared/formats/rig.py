@@ -179,6 +179,14 @@ class Rig:
         joints = range(len(self.parents))
         return [[child for child in joints if self.parents[child] == joint] for joint in joints]
 
+    def depth_first(self) -> list[int]:
+        """Joints in the order of a hierarchy that is written out: each before what hangs on it."""
+        order, stack = [], [0]
+        while stack:
+            order.append(stack.pop())
+            stack += reversed(self.children[order[-1]])
+        return order
+
 
 @dataclass(frozen=True, eq=False)
 class RigClip:

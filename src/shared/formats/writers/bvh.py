@@ -37,12 +37,12 @@ def write_bvh(motion: Motion, path: str | Path, *, names: str = "canonical") -> 
 def write_bvh_clip(clip: RigClip, path: str | Path) -> Path:
     """Write a rig's motion in its own unit and Euler orders; raises UserError if it cannot."""
     rig, moving, frames = clip.rig, clip.moving(), clip.num_frames
+    order = rig.depth_first()
     columns = []
     angles = np.empty((frames, len(rig.names), 3))
     for axes in set(rig.orders):
         joints = [joint for joint, other in enumerate(rig.orders) if other == axes]
         angles[:, joints] = np.rad2deg(matrices_to_euler(clip.rotations[:, joints], axes))
-    order = _depth_first(rig)
     for joint in order:
         columns += [clip.translations[:, joint]] if joint in moving else []
         columns.append(angles[:, joint])
@@ -99,15 +99,6 @@ def _complete(matrices: np.ndarray, z: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Add the y angle: first row of Rx⁻¹ Rz⁻¹ R is (cos y, 0, sin y)."""
     row = np.cos(z)[:, None] * matrices[:, 0] + np.sin(z)[:, None] * matrices[:, 1]
     return np.stack((z, x, np.arctan2(row[:, 2], row[:, 0])), -1)
-
-
-def _depth_first(rig: Rig) -> list[int]:
-    """Joints in the order a BVH file lists them."""
-    order, stack = [], [0]
-    while stack:
-        order.append(stack.pop())
-        stack += reversed(rig.children[order[-1]])
-    return order
 
 
 def _hierarchy(rig: Rig, order: list[int], moving: list[int]) -> list[str]:
