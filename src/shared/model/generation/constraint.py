@@ -19,7 +19,7 @@ Letters: B batch, T frames, K rows (bones, root track), C channels, M beats.
 import math
 import zlib
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self
 
@@ -274,7 +274,7 @@ def batches(
     *,
     equal_lengths: bool,
     kinds: Sequence[int] | None = None,
-) -> Iterator[list[int]]:
+) -> list[list[int]]:
     """Indices of at most `size` requests of like length, the shortest first.
 
     Args:
@@ -283,16 +283,15 @@ def batches(
         kinds: of the requests: never two of them in one batch; the least first.
     """
     kinds = kinds or [0] * len(requests)
-    batch: list[int] = []
+    found: list[list[int]] = []
     for index in sorted(range(len(requests)), key=lambda i: (kinds[i], requests[i].frames)):
-        other_length = bool(batch) and requests[batch[-1]].frames != requests[index].frames
-        other_kind = bool(batch) and kinds[batch[-1]] != kinds[index]
-        if len(batch) == size or other_kind or (equal_lengths and other_length):
-            yield batch
-            batch = []
-        batch.append(index)
-    if batch:
-        yield batch
+        last = found[-1][-1] if found else index
+        other_length = requests[last].frames != requests[index].frames
+        other = kinds[last] != kinds[index] or (equal_lengths and other_length)
+        if not found or other or len(found[-1]) == size:
+            found.append([])
+        found[-1].append(index)
+    return found
 
 
 def _each(value: Any, count: int, name: str) -> list[Any]:
