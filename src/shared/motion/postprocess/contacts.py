@@ -78,10 +78,11 @@ def grounding(balls: np.ndarray, hips: np.ndarray, kept: np.ndarray, fps: float)
     A path can carry a pelvis higher or lower than the legs below it were made for. The lowest of
     half a second either way counts, so that steps and jumps stay; further off, nobody stands.
     """
+    carries = carrying(balls, hips).any(1)
     low = (balls[..., 1] - REST_FOOT_HEIGHT).min(1)
     low = -greatest(-low, 2 * round(AROUND_SECONDS * fps) + 1)
     low = np.sign(low) * (np.abs(low) - FLAT).clip(min=0)
-    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1) * carrying(balls, hips).any(1)
+    low *= np.clip(2 - np.abs(low) / MAX_CLAIM, 0, 1) * carries
     free = 1.0 - greatest(kept.astype(float), 2 * round(0.2 * fps) + 1)
     off = smoothed(low[:, None] * free, 0.1 * fps)
     found = np.zeros_like(balls)
