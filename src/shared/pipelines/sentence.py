@@ -117,9 +117,8 @@ def clauses(
     waits = first == STANDS and len(found) == 2  # "gets up after three seconds"
     if words.downs.match(first) and known(first).action in LOW:
         found.insert(0, Clause(STANDS, seconds=BEFORE))
-    elif (
-        "ups" in understood(wholly(found[waits].text), found[waits].text, read)
-        and read(SITS).action in LOW
+    elif words.ups.fullmatch(up := found[waits].text) and (
+        understood(["ups"], up, read) and read(SITS).action in LOW
     ):
         sits = replace(found[0], text=SITS) if waits else Clause(SITS, seconds=BEFORE)
         found[:waits] = [sits]
@@ -131,7 +130,8 @@ def clauses(
         if at and clause.text == STANDS and clause.seconds is None and not ends:
             found[at] = replace(clause, seconds=RISEN)
             continue
-        found[at] = _seated(before, _walking_back(before, clause, known), known)
+        back = _walking_back(before, clause, known) if at else clause
+        found[at] = _seated(before, back, known)
         if at and found[at].seat and found[at] != clause and before == Clause(before.text):
             down = RISEN if known(before.text).action in LOW else LAID
             found[at - 1] = replace(before, seconds=down)  # there is more to come
