@@ -356,14 +356,6 @@ def bared(text: str, read: Read) -> str:
     return rest if is_told_of(text) and not (someone or moved) else text
 
 
-def bows_head(text: str) -> bool:
-    """Whether a text says that the head is down meanwhile."""
-    words = all_words()
-    said = words.bowed.search(text)
-    before = text[: said.start()] if said else ""
-    return said is not None and not (words.denies.search(before) or words.lacking.search(before))
-
-
 def is_told_of(text: str) -> bool:
     """Whether a text says in English of somebody behind an article what he does."""
     named, cuts = all_words().named, blanks(text)[1:3] if ENGLISH.match(text) else []

@@ -48,7 +48,6 @@ from .clause import (
     UNDEAD,
     Clause,
     Reading,
-    bows_head,
     without_subject,
 )
 from .edit import ControlledMotion, beside, chosen_joints, held
@@ -57,7 +56,7 @@ from .sentence import HALT, RISEN, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
 from .ways import Ways
-from .words import STANDS, all_words, says_number, says_often, side_of, turns_head, unlearned
+from .words import STANDS, all_words, bows_head, says_number, side_of, turns_head, unlearned
 
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
 CLAPS = "claps three times"  # what these are sampled of: where no number is, hands hardly meet
@@ -354,7 +353,7 @@ class SentenceGenerator:
     def _is_single(self, clause: Clause) -> bool:
         """Whether a clause asks for something that is seen once, and for no more of it."""
         seen = self._nearest(clause.text) in REPETITIONS.keys() - {"clap"}
-        return seen and not clause.held and not says_often(clause.text)
+        return seen and not clause.held and all_words().many.search(clause.text) is None
 
     def _applauds(self, clause: Clause) -> bool:
         """Whether a clause asks for claps and does not say how many."""

@@ -30,13 +30,18 @@ from .path import (
     turned,
 )
 from .stream import WINDOW, Passage, stream_features
-from .words import goes_round, side_of
+from .words import all_words, side_of
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
 
 log = logging.getLogger(__name__)
+
+
+def goes_round(text: str) -> bool:
+    """Whether a text tells of a way in a circle."""
+    return bool(all_words().round.search(text)) and not all_words().corner.search(text)
 
 
 class Ways:

@@ -564,11 +564,6 @@ def wholly(text: str) -> list[str]:
     return [name for name in found if name != "falls" or words.things.search(text) is None]
 
 
-def says_often(text: str) -> bool:
-    """Whether a text asks for something again and again."""
-    return all_words().many.search(text) is not None
-
-
 def side_of(text: str) -> str:
     """left, right, or both where a text names neither or both."""
     words = all_words()
@@ -584,11 +579,6 @@ def names_both(text: str) -> bool:
     return sum(bool(each.search(said)) for each in (words.left, words.right, words.other)) > 1
 
 
-def goes_round(text: str) -> bool:
-    """Whether a text tells of a way in a circle."""
-    return bool(all_words().round.search(text)) and not all_words().corner.search(text)
-
-
 def says_number(text: str) -> bool:
     """Whether a text says how often, were it once."""
     words = all_words()
@@ -598,3 +588,11 @@ def says_number(text: str) -> bool:
 def turns_head(text: str) -> bool:
     """Whether a text asks the head alone to turn."""
     return bool(all_words().head_turns.search(text))
+
+
+def bows_head(text: str) -> bool:
+    """Whether a text says that the head is down meanwhile."""
+    words = all_words()
+    if (said := words.bowed.search(text)) is None:
+        return False
+    return not any(no.search(text, 0, said.start()) for no in (words.denies, words.lacking))

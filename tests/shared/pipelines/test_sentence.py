@@ -15,11 +15,11 @@ from src.shared.model.checkpoint import resolve_model
 from src.shared.model.clip.out_of_domain import OutOfDomainDetector
 from src.shared.pipelines.clause import Clause, Reading
 from src.shared.pipelines.sentence import clauses
+from src.shared.pipelines.ways import goes_round
 from src.shared.pipelines.words import (
     Rare,
     all_words,
     bare,
-    goes_round,
     plain_text,
     side_of,
     tidied,

@@ -23,14 +23,13 @@ from src.shared.motion.features import ROOT_ROW, YAW_RATE, encode_features, moti
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.footskate import lock_feet
 from src.shared.motion.skeleton import FOOT_JOINTS, JOINT_INDEX
-from src.shared.pipelines.clause import bows_head
 from src.shared.pipelines.edit import chosen_joints, edit_clip, edited
 from src.shared.pipelines.path import turned
 from src.shared.pipelines.ranking import PromptSampler, TextJudge
 from src.shared.pipelines.stream import Passage, spanned_features
 from src.shared.pipelines.text import INSISTING, SentenceGenerator
 from src.shared.pipelines.timeline import Timeline
-from src.shared.pipelines.words import STANDS
+from src.shared.pipelines.words import STANDS, bows_head
 from tests.shared.model.conftest import tiny_generator
 
 
