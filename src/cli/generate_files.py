@@ -127,7 +127,7 @@ def write_motions(
             rows.append(
                 {
                     "prompt": motion.text,
-                    "frames": len(motion.root_position),
+                    "frames": motion.num_frames,
                     "fps": motion.fps,
                     "files": named(paths),
                 }
