@@ -33,7 +33,7 @@ def checked_formats(text: str, known: Mapping[str, Any]) -> list[str]:
     from ..shared.formats.registry import find_writer
 
     names = list(dict.fromkeys(parts(text.lower())))
-    unknown = sorted({*names} - {*known})
+    unknown = [name for name in names if name not in known]
     if unknown or not names:
         raise UsageError(
             f"--format {text!r}: {', '.join(map(repr, unknown)) or 'nothing'} is not a format"
