@@ -105,7 +105,7 @@ def stream(
             except UsageError as error:  # of one line; the stream goes on
                 complain(f"warning: {error}")
                 return
-            for warning in filter(None, generator.text.scope_warnings([text], again=False)):
+            for warning in filter(None, generator.sentences.scope_warnings([text])):
                 complain(f"warning: {warning}")
 
     def listen() -> None:

@@ -49,7 +49,7 @@ export class Engine {
 
   /** What a body that goes on is to do instead, also while what comes next is made. */
   say({ text }) {
-    if (this.stream) this.stream.text = text;
+    return this.stream?.say(text);
   }
 
   /** What its helper is worth: see `Sampler.compare`. */

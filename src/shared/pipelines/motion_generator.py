@@ -484,7 +484,25 @@ class MotionGenerator:
 
     def stream(self, prompts: str | Iterable[str | Passage], **options: Any) -> MotionStream:
         """Motion without end while prompts change; see `MotionStream`."""
-        return MotionStream(self.text, prompts, **options)
+        return MotionStream(self.text, prompts, plan=self._plan, **options)
+
+    def _plan(self, text: str) -> list[Passage]:
+        """What a live body does of a text: its clauses, the last of them on and on."""
+        said, fps = self.sentences, self.text.card.fps
+        parts, found = said.clauses(text), list[Passage]()
+        for part in parts:
+            mirrored = part.mirrored and not part.meanwhile
+            whole = len(parts) == 1 and not mirrored
+            found.append(
+                Passage(
+                    said.whole(text) if whole else part.text,
+                    round(said.ways.lasting(part) * fps),
+                    low=said.ways.nearest(part.text) == "sit",
+                    mirrored=mirrored,
+                    straight=said.ways.goes_straight(part.text),
+                )
+            )
+        return found
 
 
 def _texts(prompts: str | Sequence[str]) -> list[str]:

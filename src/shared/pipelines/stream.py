@@ -10,6 +10,7 @@ heading, so windows are chained as they are. One window is in memory at a time.
 Letters: T frames, R rows (bones, root track), C channels, O frames that neighbours share.
 """
 
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -26,7 +27,7 @@ from ..model.noise import derived_seed, retry_seeds
 from ..motion.features import ROOT_ROW, Place, decode_features, mirror_features
 from ..motion.motion import Motion
 from ..motion.postprocess.stitching import blend_boundaries, bridge, gone_down, leaps, posture
-from ..motion.postprocess.streaming import StreamingPostProcessor
+from ..motion.postprocess.streaming import Course, StreamingPostProcessor
 from ..motion.skeleton import JOINT_INDEX
 from ..tensors import Tensor, torch
 
@@ -38,6 +39,7 @@ SHORTEST = 48  # frames; a shorter window is made as long as this and cut: train
 
 ConstraintOf = Callable[[int, int], Constraint | None]  # what is known of frames [start, stop)
 Miss = Callable[[Tensor], float]  # raw features [t, R, 6]: how far from what is wanted, 0 = there
+Plan = Callable[[str], Sequence["Passage"]]  # of a text: what is done in order, the last on and on
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,7 @@ class Passage:
             of them.
         low: whether one goes down to it by a way of its own, however it would go on.
         mirrored: whether it is the mirror image of what the text shows.
+        straight: whether who is live and goes goes straight on.
     """
 
     text: str
@@ -66,6 +69,7 @@ class Passage:
     timed: int | None = None
     low: bool = False
     mirrored: bool = False
+    straight: bool = False
 
     def __post_init__(self) -> None:
         if self.frames < 1:
@@ -115,7 +119,7 @@ def stream_features(
     if not 1 <= overlap <= window // 2:
         raise UsageError(f"overlap {overlap} must lie between 1 and half the window ({window})")
     before = spare = torch.zeros(0, generator.network.motion_rows, 6)
-    shows: tuple[str, str | None] | None = None  # the spare frames
+    shows: tuple[str, str | None, bool] | None = None  # the spare frames
     made, number, said, fps = 0, 0, ("", False), generator.card.fps
 
     def sampled(passage: Passage, known: Constraint, seed: int) -> Tensor:
@@ -176,11 +180,8 @@ def stream_features(
     bridged = bridged and generator.network.motion_rows > ROOT_ROW
     for passage in passages:
         own = before[:0]  # what there is of the passage
-        if (
-            shows == (passage.text, passage.tag)
-            and not passage.mirrored
-            and len(spare) >= passage.frames
-        ):
+        same = passage.text, passage.tag, passage.mirrored
+        if shows == same and len(spare) >= passage.frames:
             piece, spare = spare[: passage.frames], spare[passage.frames :]
             before = torch.cat((before, piece))[-overlap:]
             made += len(piece)
@@ -212,7 +213,7 @@ def stream_features(
                 if told is not None:
                     told(len(way))
                 yield way
-            piece, spare, shows = piece[:length], piece[length:], (passage.text, passage.tag)
+            piece, spare, shows = piece[:length], piece[length:], same
             before = torch.cat((before, piece))[-overlap:]
             own = torch.cat((own, piece))
             made, number, shared = made + length, number + 1, before
@@ -411,6 +412,7 @@ class MotionStream:
         ahead: seconds made beyond that, which a new text drops.
         sampling: see `stream_features`.
         foot_lock: hold standing feet; None = the model's own setting.
+        plan: what is done of one text that goes on; None = the text as it stands.
 
     Raises:
         UserError: while it runs, as `stream_features`.
@@ -429,6 +431,7 @@ class MotionStream:
         ahead: float = 0.0,
         sampling: Sampling = DEFAULT_SAMPLING,
         foot_lock: bool | None = None,
+        plan: Plan | None = None,
     ) -> None:
         in_range("seconds", seconds, 1 / 30, 60.0)
         if isinstance(prompts, str) or not isinstance(prompts, Iterable):
@@ -436,8 +439,12 @@ class MotionStream:
         self._fps = generator.card.fps
         self._frames = round(seconds * self._fps)
         self._prompts = [] if isinstance(prompts, str) else prompts
-        self._now = Passage(prompts, self._frames) if isinstance(prompts, str) else None
-        self._constraint = constraint
+        self._plan = plan or (lambda text: [Passage(text, self._frames)])
+        self._now: tuple[str, Sequence[Passage]] | None = None  # what was said, what is done of it
+        if isinstance(prompts, str):
+            self.say(prompts)
+        self._constraint, self._course = constraint, Course(self._fps)
+        self._straight = False  # what was taken last
         self._post_processor = StreamingPostProcessor(
             generator.post_processor, place=place or Place(), foot_lock=foot_lock
         )
@@ -463,7 +470,9 @@ class MotionStream:
             UsageError: no text; the stream goes on as it was.
         """
         check_text("text", text)
-        self._now = Passage(text, self._frames, tag)
+        if self._now is not None and self._now[0] == text:
+            return  # it goes on
+        self._now = text, [replace(each, tag=tag) for each in self._plan(text)]
 
     def stop(self) -> None:
         """End after what is made already."""
@@ -474,6 +483,7 @@ class MotionStream:
         started = time.perf_counter()
         for features in self._pieces:
             start, self._made = self._made, self._made + len(features)
+            features = self._course.add(features, kept=self._straight)
             given = None if self._constraint is None else self._constraint(start, self._made)
             piece = self._post_processor.add(features, None if given is None else given.known)
             if piece is not None:
@@ -505,10 +515,16 @@ class MotionStream:
             passage = Passage(prompt, self._frames) if isinstance(prompt, str) else prompt
             self._texts.append((self._made, passage.text))
             yield passage
-        while self._now is not None:
-            if self.text_at(self._made) != self._now.text:
-                self._texts.append((self._made, self._now.text))
-            yield self._now
+        while (now := self._now) is not None:
+            text, parts = now
+            if self.text_at(self._made) != text:
+                self._texts.append((self._made, text))
+            for part in parts:
+                left = math.inf if part is parts[-1] else part.frames
+                self._straight = part.straight
+                while left > 0 and self._now is now:
+                    yield replace(part, frames=self._frames)
+                    left -= self._frames
 
     def _count(self, seconds: float, frames: int) -> None:
         if self._first is None:

@@ -26,6 +26,7 @@ from .path import (
     natural_gait,
     natural_sway,
     on_the_spot,
+    time_of_steps,
     time_path,
     turned,
 )
@@ -34,6 +35,7 @@ from .words import all_words, side_of
 
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
+TAKES = 3.0  # seconds of what is done once
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
 
 log = logging.getLogger(__name__)
@@ -138,6 +140,21 @@ class Ways:
             log.warning("%r: %s; until then it takes its own time", passage.text, error)
             path = pace(seconds=None)
         return path.swaying(self.sway(replace(passage, frames=len(path)), sampling)).constraint()
+
+    def lasting(self, clause: Clause) -> float:
+        """Seconds of a clause that nothing leads, with more behind it."""
+        steps = clause.steps if self.nearest(clause.text) in STEPPING else None
+        if clause.seconds or not (clause.metres or steps):
+            return clause.seconds or clause.count * clause.lasting(TAKES)
+        speed = self.gait(clause.text, Sampling()).speed
+        return time_of_steps(steps, speed) if steps else (clause.metres or 0.0) / speed
+
+    def goes_straight(self, text: str) -> bool:
+        """Whether a text asks for a way that nothing in it bends."""
+        action, side = self.nearest(text), side_of(text)
+        return (
+            action in STEPPING and not goes_round(text) and (action not in GOING or side == "both")
+        )
 
     def straight(self, text: str, features: Tensor) -> Tensor:
         """Features that nothing led, [T,23,6]: who goes on for longer than a window, and does not

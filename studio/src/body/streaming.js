@@ -2,13 +2,33 @@
 // src/shared/motion/postprocess/streaming.py, which says why. Nothing is known of what streams here,
 // and the signs of quaternions go on where pieces are joined.
 
-import { cut, decodeFeatures, framesOf, framesOfMotion, integrateRoot, joinArrays, ORIGIN } from "./features.js";
+import { cut, decodeFeatures, framesOf, framesOfMotion, integrateRoot, joinArrays, ORIGIN, ROOT, WIDTH as FRAME, YAW_RATE } from "./features.js";
 import { easeFromKept, lockFeet, nothingKept } from "./footskate.js";
 import { conjugate, continuous, norm, product, slerp, sub } from "./rotations.js";
 import { FEET, FPS, JOINTS, pose } from "./skeleton.js";
 import { clampVelocity, FADE, joined, smoothFeatures } from "./whole.js";
 
 const BLOCK = 15, AHEAD = 12, BEHIND = 24, JUMP = 0.04, WIDTH = JOINTS * 4;
+const LEADING = 0.5, LED = (8 * Math.PI) / 180; // 1/s, and radians a second at most, back onto a course
+const TURNS = (20 * Math.PI) / 180, SEEN = 2; // radians a second that are a turn, over so many seconds
+
+/** Leads a heading back that strays from its course, slower than a body sways with its steps; who turns takes a course anew. */
+export class Course {
+  turning = 0; // radians a second
+  strayed = 0; // radians
+
+  add(features, kept) {
+    const led = features.slice();
+    for (let at = ROOT + YAW_RATE; at < led.length; at += FRAME) {
+      this.turning += (led[at] - this.turning) / (SEEN * FPS);
+      if (!kept || Math.abs(this.turning) >= TURNS) { this.strayed = 0; continue; }
+      const rate = led[at] - Math.min(Math.max(LEADING * this.strayed, -LED), LED);
+      led[at] = rate;
+      this.strayed += rate / FPS;
+    }
+    return led;
+  }
+}
 
 /** Smooths; the last frames wait for their neighbours. */
 class Smoother {

@@ -12,7 +12,7 @@ import { betweenBlanks, GOING, HALT, isFar, isPlain, lasting, plain, plainClause
 import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
-const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0062, CORNER = 90, CORNER_SECONDS = 2.3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
+const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0062, CORNER = 90, CORNER_SECONDS = 2.3, TAKES = 3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
 const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
@@ -152,9 +152,40 @@ export class Director {
     return this.scope.meta.gestures.includes(this.nearest(text));
   }
 
-  /** Motion without end, for texts as they stand. */
+  /** Motion without end, of what is done of each text that is said. */
   stream(seed) {
-    return new MotionStream(this.sampler, this.settings.post, (text) => this.beginsStanding(text), seed);
+    return new MotionStream(this.sampler, this.settings.post, (text) => this.plan(text), seed);
+  }
+
+  /** What a live body does of a text: its clauses, the last of them on and on. */
+  async plan(text) {
+    const parts = await this.clauses(text), found = [];
+    for (const part of parts) {
+      const mirrored = part.mirrored && !part.meanwhile;
+      found.push({
+        text: parts.length === 1 && !mirrored ? this.reader.whole(text, parts) : part.text,
+        frames: round((await this.taking(part)) * FPS),
+        afresh: this.beginsStanding(part.text),
+        low: this.nearest(part.text) === "sit",
+        mirrored,
+        straight: this.goesStraight(part.text),
+      });
+    }
+    return found;
+  }
+
+  /** Seconds of a clause that nothing leads, with more behind it. */
+  async taking(clause) {
+    const seconds = clause.seconds || (clause.steps && (await this.stepping(clause, 0)));
+    if (seconds) return seconds;
+    if (clause.metres) return clause.metres / (await naturalGait(this.sampler, clause.text, 0)).speed;
+    return clause.count * lasting(clause, TAKES);
+  }
+
+  /** Whether a text asks for a way that nothing in it bends. */
+  goesStraight(text) {
+    const action = this.nearest(text);
+    return STEPPING.includes(action) && !this.reader.goesRound(text) && (!GOING.includes(action) || this.reader.sideOf(text) === "both");
   }
 
   // ---------------------------------------------------------------- a sentence

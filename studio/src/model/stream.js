@@ -3,7 +3,7 @@
 
 import { bridge, goneDown, isApart, leaps } from "../body/bridge.js";
 import { cut, decodeFeatures, framesOf, joinArrays, mirrored, ROOT, WIDTH } from "../body/features.js";
-import { StreamingPostProcessor } from "../body/streaming.js";
+import { Course, StreamingPostProcessor } from "../body/streaming.js";
 import { endsAtRest } from "../body/measurements.js";
 import { INDEX, pose } from "../body/skeleton.js";
 import { blendBoundaries } from "../body/whole.js";
@@ -137,7 +137,7 @@ async function* featurePieces(sampler, passages, seed, options = {}) {
   };
   next: for (const passage of passages) {
     const shows = `${passage.mirrored ? "mirrored " : ""}${passage.text}`;
-    if (shows === said && !passage.mirrored && framesOf(spare) >= passage.frames) {
+    if (shows === said && framesOf(spare) >= passage.frames) {
       const piece = cut(spare, 0, passage.frames);
       spare = cut(spare, passage.frames);
       yield goOn(piece);
@@ -202,29 +202,43 @@ export class MotionStream {
   texts = []; // first frames of passages, and what they show
   made = 0;
   shown = 0;
+  course = new Course();
 
-  /** @param {Sampler} sampler @param {object} post settings @param {function} afresh whether a text's action begins standing @param {number} seed */
-  constructor(sampler, post, afresh, seed) {
-    this.afresh = afresh;
+  /** @param {Sampler} sampler @param {object} post settings @param {function} plan of a text: what is done, in order, the last of it on and on @param {number} seed */
+  constructor(sampler, post, plan, seed) {
+    this.plan = plan;
     this.processor = new StreamingPostProcessor(post);
     this.pieces = featurePieces(sampler, this.passages(), seed, { ahead: AHEAD, bridged: true });
   }
 
   *passages() {
     for (;;) {
-      const { text } = this;
+      const { now } = this, { text, parts } = now;
       if (this.textAt(this.made) !== text) this.texts.push([this.made, text]);
-      yield { text, frames: LIVE, afresh: this.afresh(text), gone: () => this.text !== text };
+      for (const part of parts) {
+        this.straight = part.straight;
+        let left = part === parts.at(-1) ? Infinity : part.frames;
+        for (; left > 0 && this.now === now; left -= LIVE) yield { ...part, frames: LIVE, gone: () => this.now !== now };
+      }
     }
+  }
+
+  /** What is to be done as soon as it is known. */
+  say(text) {
+    if (text !== this.said?.text) {
+      const said = { text, done: this.plan(text).then((parts) => { if (this.said === said) this.now = { text, parts }; }) };
+      this.said = said;
+    }
+    return this.said.done;
   }
 
   /** The next piece that settles, with the text that each of its frames shows. */
   async next(text) {
-    this.text = text;
+    await this.say(text);
     for (;;) {
-      const { value: features } = await this.pieces.next();
-      this.made += framesOf(features);
-      const piece = this.processor.add(features);
+      const { value } = await this.pieces.next();
+      this.made += framesOf(value);
+      const piece = this.processor.add(this.course.add(value, this.straight));
       if (!piece) continue;
       const texts = Array.from({ length: piece.frames }, () => this.textAt(this.shown++));
       while (this.texts[1]?.[0] <= this.shown) this.texts.shift();

@@ -65,6 +65,23 @@ def test_a_sentence_is_seen_and_its_delay_told(generator: MotionGenerator) -> No
     assert len(figures.latencies) == 1 and 0 < figures.latencies[0] < 60
 
 
+def test_a_live_body_does_one_thing_after_the_other_and_goes_straight() -> None:
+    def moved(text: str, seconds: float) -> tuple[np.ndarray, np.ndarray]:
+        frames: list[Frame] = []
+        starter = MotionGenerator("starter", device="cpu")
+        live = LiveBody(starter, text, sampling=Sampling(seed=1, steps=2), real_time=False)
+        live.play([frames.append], seconds=seconds)
+        root = np.stack([frame.root for frame in frames])
+        return root, np.stack([frame.quaternions for frame in frames])
+
+    root, _ = moved("a person walks two metres, then waves", 8.0)
+    assert 1.2 < np.linalg.norm(root[-1] - root[0]) < 4.0  # who walks on is 9 m away
+    assert np.ptp(root[-60:], axis=0).max() < 0.1
+    root, _ = moved("a person walks forward", 40.0)  # turned by 90 degrees, when nothing led it
+    way = root[-1] - root[0]
+    assert np.linalg.norm(way) > 35.0 and abs(np.degrees(np.arctan2(way[0], way[2]))) < 12.0
+
+
 def test_it_ends_so_many_seconds_later(generator: MotionGenerator) -> None:
     live, seen = body(generator), []
 

@@ -27,10 +27,18 @@ from tests.shared.studio.driving import (
 
 WALKS, WAVES = "a person walks forward", "una persona saluda con la mano"
 SLEEPS = "a person sleeps"
+BOTH, OTHER = "walks one metre, then claps", "a person salutes with the left hand"  # mirrored
 
 
 LIVE = (
-    [WALKS] * 3 + [WAVES] * 3 + ["a person stands"] * 4 + [WAVES] * 3 + [SLEEPS] * 3 + [WALKS] * 3
+    [WALKS] * 3
+    + [WAVES] * 3
+    + ["a person stands"] * 4
+    + [WAVES] * 3
+    + [SLEEPS] * 3
+    + [WALKS] * 3
+    + [BOTH] * 5
+    + [OTHER] * 4
 )
 
 

@@ -7,13 +7,14 @@ every step. Roots are summed on the CPU in float64.
 Letters: T frames, R rows (bones, root track), C channels.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from ...tensors import Tensor, torch
-from ..features import ORIGIN, ROOT_ROW, Place, decode_features, integrate_root
+from ..features import ORIGIN, ROOT_ROW, YAW_RATE, Place, decode_features, integrate_root
 from ..motion import Motion
 from ..rotations import (
     quaternion_conjugate,
@@ -29,7 +30,33 @@ from .whole import MotionPostProcessor, clamp_velocity, smooth_features
 BLOCK, AHEAD, BEHIND = 15, 12, 24  # frames: locked at once, waited for, remembered
 JUMP = 0.04  # metres: a foot that a plant moves farther in a block's first frame gets there slowly
 
+LEADING, LED = 0.5, math.radians(8.0)  # 1/s, and radians a second at most, back onto a course
+TURNS, SEEN = math.radians(20.0), 2.0  # radians a second that are a turn, over so many seconds
+
 Piece = tuple[Tensor, Tensor]  # features [t,R,6] and what is known of them, bool
+
+
+class Course:
+    """Leads a heading back that strays from its course, slower than a body sways with its steps:
+    drift bends a minute's walk by up to 250 degrees. Who turns takes a course anew."""
+
+    def __init__(self, fps: float) -> None:
+        self.fps, self._turning, self._strayed = fps, 0.0, 0.0  # radians a second; radians
+
+    def add(self, features: Tensor, *, kept: bool) -> Tensor:
+        """Features [t,R,6] whose course is `kept`, or that go as they do."""
+        rates = features[:, ROOT_ROW, YAW_RATE].tolist() if features.shape[1] > ROOT_ROW else []
+        for frame, rate in enumerate(rates):
+            self._turning += (rate - self._turning) / (SEEN * self.fps)
+            if not kept or abs(self._turning) >= TURNS:
+                self._strayed = 0.0
+                continue
+            rates[frame] = rate - min(max(LEADING * self._strayed, -LED), LED)
+            self._strayed += rates[frame] / self.fps
+        led = features.clone()
+        if rates:
+            led[:, ROOT_ROW, YAW_RATE] = torch.as_tensor(rates)
+        return led
 
 
 class Smoother:

@@ -16,7 +16,7 @@ from src.shared.motion.features import LATERAL, ROOT_ROW, YAW_RATE, Place, encod
 from src.shared.motion.motion import Motion
 from src.shared.motion.postprocess.contacts import GIVE
 from src.shared.motion.postprocess.stitching import joined
-from src.shared.motion.postprocess.streaming import StreamingPostProcessor
+from src.shared.motion.postprocess.streaming import Course, StreamingPostProcessor
 from src.shared.motion.postprocess.whole import MotionPostProcessor
 from src.shared.motion.skeleton import FOOT_JOINTS
 from tests.shared.model.conftest import tiny_generator
@@ -124,3 +124,20 @@ def test_nothing_and_everything(walk: torch.Tensor) -> None:
     pieces = [processor.add(walk[:1]), processor.finish()]
     [one] = [piece for piece in pieces if piece is not None]
     assert one.num_frames == 1 and one.root_position[0, 0] == 0
+
+
+def test_a_course_is_kept_by_who_sways_and_strays_and_by_nobody_who_turns() -> None:
+    time = np.arange(1800) / 30
+    sways = np.radians(30) * np.cos(2 * np.pi * time)
+    features = torch.zeros(len(time), ROOT_ROW + 1, 6)
+
+    def headings(drift: float, *, kept: bool = True) -> np.ndarray:
+        features[:, ROOT_ROW, YAW_RATE] = torch.as_tensor(sways + np.radians(drift))
+        course, pieces = Course(30.0), features.split(7)
+        led = torch.cat([course.add(piece, kept=kept) for piece in pieces])
+        return np.degrees(led[:, ROOT_ROW, YAW_RATE].numpy().cumsum() / 30)
+
+    strayed, led = headings(4.0, kept=False), headings(4.0)
+    assert abs(strayed[-1] - 240.0) < 1 and np.abs(led).max() < 16
+    np.testing.assert_allclose(np.ptp(led[-30:]), 60 / (2 * np.pi), rtol=0.05)  # the sway stays
+    assert headings(45.0)[-1] > 45.0 * 60 - 30  # who turns
