@@ -66,6 +66,7 @@ HALT = 2.5  # seconds that it takes to come to a stand
 LOW = frozenset({"sit", "kneel", "meditate"})  # which one stays in as it is
 SEATED = LOW | {"sit-floor", "lie-down", "sleep"}  # while the arms do something
 HOLDABLE = frozenset({"raise", "bow", "squat"})
+HEADING, NAMED = 3, 2  # words before the colon of a list, and of what it names, at most
 MOST_PIECES = 8  # between commas, that may be one part
 _ABOUT = ABOUT, -ABOUT
 _AGAIN = re.compile(r"(?<!\w)([^\W\d]{4,})(?:[,;]?\s+\1)+(?=\s*(?:[,;.!?]|$))", re.I)
@@ -251,6 +252,8 @@ def _as_before(before: Clause, clause: Clause) -> Clause:
 def _ordered(text: str, read: Read) -> list[str]:
     """Parts that words of order part, first things first."""
     words = all_words()
+    if listed := _listed(text, read):
+        return listed
     found: tuple[str, str] | None = None
     after = words.after.match(text)
     if match := after or words.before.match(text):
@@ -288,6 +291,15 @@ def _ordered(text: str, read: Read) -> list[str]:
     if found:
         return [part for each in found for part in _ordered(each, read)]
     return [trimmed(words.then.sub(" ", text) if words.then.match(text) else text)]
+
+
+def _listed(text: str, read: Read) -> list[str]:
+    """What a list behind a few words and a colon asks for, where all of it is sure."""
+    head, *rest = re.split("[:：]", text, maxsplit=1)
+    items = [trimmed(item) for item in all_words().joint.split(rest[0])] if rest else []
+    short = len(head.split()) <= HEADING and all(len(item.split()) <= NAMED for item in items)
+    found = [read(measured(item).text) for item in items] if short else []
+    return items if len(found) > 1 and all(each.surely and each.known for each in found) else []
 
 
 def _is_time(text: str, word: re.Match[str], right: str, read: Read, sure: bool = False) -> bool:

@@ -17,7 +17,7 @@ export const UNDEAD = "zombie"; // the action that is somebody
 export const GOING = ["walk", "run", "crouch-walk"], LOW = ["sit", "kneel", "meditate"], SEATED = [...LOW, "sit-floor", "lie-down", "sleep"];
 const HOLDABLE = ["raise", "bow", "squat"];
 const PAUSES = [["after_seconds", 1], ["later_seconds", 1], ["after_minutes", 60], ["later_minutes", 60]];
-const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, LAID = 3, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8;
+const PACES = { walk: [0.4, 1.3], run: [0.8, 1.4] }, ONCE = 5, LAID = 3, SURE = 0, SURE_AT_MARK = -14, SURE_IF_SAID = -2, MOST_PIECES = 8, HEADING = 3, NAMED = 2; // words before the colon of a list, and of what it names
 export const surely = ({ action, certainty }) => (certainty > SURE ? action : null);
 const unmarked = (text) => text.replace(new RegExp(MARK.source, "gu"), "");
 const CJK = /[\u3040-\u30ff\u3400-\u9fff]/u;
@@ -363,7 +363,17 @@ export class SentenceReader {
     return text.replace(NUMBERED, ARROW);
   }
 
+  /** What a list behind a few words and a colon asks for, where all of it is sure. */
+  listed(text) {
+    const [, head, rest] = text.match(/^([^:：]*)[:：](.*)$/su) ?? [], size = (words) => words.split(/\s+/u).filter(Boolean).length;
+    const items = rest === undefined ? [] : rest.split(this.each.joint).map((item) => this.trimmed(item));
+    const short = items.length > 1 && size(head) <= HEADING && items.every((item) => size(item) <= NAMED);
+    return short && items.map((item) => this.read(this.measured(item).text)).every((found) => surely(found) && found.known) ? items : [];
+  }
+
   ordered(text) {
+    const listed = this.listed(text);
+    if (listed.length) return listed;
     const after = this.head.after.exec(text), before = after ? null : this.head.before.exec(text);
     const word = after ?? before;
     let found = word && this.subordinate(text.slice(word[0].length));

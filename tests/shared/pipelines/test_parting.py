@@ -519,6 +519,7 @@ def test_hops_on_the_left_foot_are_mirrored(sentence: str, sentences: SentenceGe
         ("punch, punch, kick", [("punch", 2), ("kick", 1)]),
         ("jump jump jump", [("jump", 3)]),
         ("kick kick, then punch", [("kick", 2), ("punch", 1)]),
+        ("boxing combo: jab, jab, hook", [("jab", 1), ("jab", 1), ("hook", 1)]),
         ("walks walks walks", [("walks walks walks", 1)]),
         ("jump jump jump for joy", [("jump jump jump for joy", 1)]),
         ("jumps 0 times", [("jumps 0 times", 1)]),
@@ -534,6 +535,7 @@ def test_what_is_said_again_and_again_is_counted(
 @pytest.mark.parametrize(
     ("sentence", "text"),
     [("die", "dies"), ("die.", "dies"), ("he trips and falls", "dies"), ("faints", "dies"),
+     ("someone trips and falls", "dies"), ("somebody falls over", "dies"),
      ("sterben", "dies"), ("kick die Tür ein", "kick die Tür ein")],
 )  # fmt: skip
 def test_die_is_no_article_at_an_end(sentence: str, text: str, sentences: SentenceGenerator):
