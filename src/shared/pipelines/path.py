@@ -585,9 +585,13 @@ def on_the_spot(given: Constraint) -> Constraint:
     return given
 
 
-def circled(degrees: float, fps: float, seconds: float) -> Constraint:
-    """A heading that turns by so many degrees, as fast at any moment: a way that closes."""
-    given = Constraint.free(round(seconds * fps))
-    given.values[:, ROOT_ROW, YAW_RATE] = math.radians(degrees) / seconds
+def circled(degrees: Sequence[float], fps: float, seconds: float) -> Constraint:
+    """A heading that turns by so many degrees, one after the other, as fast at any moment: once
+    round, a way that closes."""
+    given, angles = Constraint.free(round(seconds * fps)), np.radians(degrees)
+    ends = np.abs(angles).cumsum() / np.abs(angles).sum() * len(given)
+    signs = np.sign(angles)[np.searchsorted(ends[:-1], np.arange(len(given)), "right")]
+    rate = torch.as_tensor(signs * np.abs(angles).sum() / seconds, dtype=torch.float32)
+    given.values[:, ROOT_ROW, YAW_RATE] = rate
     given.known[:, ROOT_ROW, YAW_RATE] = True
     return given

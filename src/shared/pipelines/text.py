@@ -55,7 +55,7 @@ from .path import TURN_REST, on_the_spot, time_of_steps
 from .sentence import HALT, RISEN, clauses, whole
 from .stream import OVERLAP, WINDOW, Miss, Passage, spanned_features
 from .timeline import SHORTEST, Part, Timeline, add_parts, in_a_loop
-from .ways import Ways
+from .ways import Ways, unwound
 from .words import STANDS, all_words, bows_head, says_number, side_of, turns_head, unlearned
 
 CLAP, TO_LAND, CLAP_PACE = 2.0, 1.3, 2  # seconds of a clap, and to land; times as fast as made
@@ -246,7 +246,7 @@ class SentenceGenerator:
         """A line for each text that is hardly known, as it stands and said of a person."""
 
         def known(text: str) -> bool:
-            what, rest = self._reading(text).surely, without_subject(text, self._reading)
+            what, rest = self._reading(text).surely, without_subject(unwound(text), self._reading)
             said = [self._reading(other) for other in (rest, f"a person {rest}") if what]
             return any(each.known and each.surely == what for each in said)
 
@@ -381,7 +381,7 @@ class SentenceGenerator:
         if self._nearest(clause.text) == "turn" and side_of(clause.text) != "both":
             return not turns_head(clause.text)
         goes = clause.metres is None and clause.count == 1 and self._nearest(clause.text) in GOING
-        return goes and self.ways.bend(clause.text) != 0
+        return goes and self.ways.bends(clause.text) != ()
 
     def _one(
         self, text: str, seconds: float, tag: str | None, sampling: Sampling, lock: bool | None

@@ -36,6 +36,8 @@ from .words import all_words, side_of
 SPIN_SPEED = 120.0  # degrees a second, about, where a number of seconds is to be filled
 CORNER, CORNER_SECONDS = 90.0, 2.3  # led so, it turns in 1.95 s; captured walks in 1.9
 TAKES = 3.0  # seconds of what is done once
+WINDING_SPEED = 75.0  # the same, of ways with a name: wide enough to be seen
+EIGHT, WINDS = (360.0, -360.0), (45.0, -90.0, 90.0, -90.0, 45.0)  # degrees, of ways with a name
 TURN_SECONDS, TURNING = 2.2, math.radians(20.0)  # of a led quarter on the spot; a second, at least
 
 log = logging.getLogger(__name__)
@@ -44,6 +46,19 @@ log = logging.getLogger(__name__)
 def goes_round(text: str) -> bool:
     """Whether a text tells of a way in a circle."""
     return bool(all_words().round.search(text)) and not all_words().corner.search(text)
+
+
+def winding(text: str) -> tuple[float, ...]:
+    """The degrees of a way in a figure of eight, or from side to side; none where a text names
+    neither."""
+    words = all_words()
+    return EIGHT if words.eights.search(text) else WINDS if words.winds.search(text) else ()
+
+
+def unwound(text: str) -> str:
+    """A text without the words that name such a way."""
+    words = all_words()
+    return words.eights.sub(" ", words.winds.sub(" ", text)).strip()
 
 
 class Ways:
@@ -72,17 +87,20 @@ class Ways:
                 return each
         return text
 
-    def bend(self, text: str) -> float:
-        """Degrees, positive to the left, by which a walk or a run turns that is to turn, else 0: if
-        what the network makes of it turns, and does not stop turning (experiments, section 44)."""
-        if self.nearest(text) not in GOING or (side_of(text) == "both" and not goes_round(text)):
-            return 0.0
+    def bends(self, text: str) -> tuple[float, ...]:
+        """Degrees, positive to the left, by which a walk or a run turns that is to turn, one after
+        the other: if what the network makes of it turns, and does not stop turning (experiments,
+        section 44)."""
+        if self.nearest(text) not in GOING:
+            return ()
+        if (named := winding(text)) or (side_of(text) == "both" and not goes_round(text)):
+            return named
         if text not in self._bent:
             turning = self.gait(text, Sampling()).turning
             left = turning > 0 if (side := side_of(text)) == "both" else side == "left"
             angle = 360.0 if goes_round(text) else 0.0 if abs(turning) < TURNING else CORNER
             self._bent[text] = angle if left else -angle
-        return self._bent[text]
+        return (self._bent[text],) if self._bent[text] else ()
 
     def turn(self, clause: Clause, seconds: float, sampling: Sampling) -> Constraint:
         """By the angle that is named; round a corner or in a circle; else in full circles, as many
@@ -97,14 +115,15 @@ class Ways:
             rest = max((seconds - TURN_SECONDS) / 2, TURN_REST)
             time = (clause.seconds,) if clause.count > 1 else (seconds, rest)
             return on_the_spot(turned(angle, fps, *time))
-        if bend := self.bend(clause.text):
+        if bends := self.bends(clause.text):
             if clause.seconds is None:
-                seconds = max(seconds, abs(bend) / SPIN_SPEED + 2 * TURN_REST)
-            if abs(bend) == CORNER:
+                speed = SPIN_SPEED if len(bends) == 1 else WINDING_SPEED
+                seconds = max(seconds, sum(map(abs, bends)) / speed + 2 * TURN_REST)
+            if bends in ((CORNER,), (-CORNER,)):
                 rest = max((seconds - CORNER_SECONDS) / 2, TURN_REST)
-                given = turned(bend, fps, seconds, rest)
+                given = turned(bends[0], fps, seconds, rest)
             else:
-                given = circled(bend, fps, seconds)
+                given = circled(bends, fps, seconds)
             sway = self.sway(Passage(clause.text, len(given)), sampling)
             given.values[:, ROOT_ROW, YAW_RATE] += torch.as_tensor(sway)
             return given

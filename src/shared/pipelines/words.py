@@ -175,6 +175,7 @@ class Words:
             re.compile(_any(all_of(key)), re.I)
             for key in ("left", "right", "round", "corners", "uncounted", "takes", "lacking")
         )
+        self.eights, self.winds = (Rare(_any(all_of(k)), all_of(k)) for k in ("eights", "winds"))
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
         self.angle = re.compile(_any(all_of("angles")), re.I)

@@ -13,7 +13,7 @@ import { wordsOf } from "./scope.js";
 import { freeConstraint, MotionStream, OVERLAP, retrySeeds, spannedFeatures, streamFeatures, TRIES, WINDOW } from "./stream.js";
 
 const STEPPING = [...GOING, "side-step"], WALK_RATIO = 0.0062, CORNER = 90, CORNER_SECONDS = 2.3, TAKES = 3, TURN_SECONDS = 2.2, TURNING = (20 * Math.PI) / 180;
-const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
+const MIN_FRAMES = 8, SHORTEST = 0.2, TURN_SPEED = 75, TURN_REST = 0.5, SPIN_SPEED = 120, WINDING_SPEED = 75, INSISTING = 3, ONCE = [2.5, 3], AT_ONCE = 5, LAP = 4.75, LONG_REST = 1, CLAP = 2, CLAPS = "claps three times", HELD_SECONDS = 4, STOP = 1, LEAST = 1, UNEASY = 0.5, REPEATED_OVERLAP = 10;
 
 const ROUND = ["turn", "spin"], ARTICLE = / (?:a|an|the|un|una|une|el|la|los|las|le|les|ein|eine|einen|den|die|das)$/u;
 const TAIL = /^[いえきぎくぐけげこしじすずせそたちってなねびべぶまみむめらりるれろん]{0,2}/u; // of a verb
@@ -63,7 +63,7 @@ export class Director {
   doubt(text) {
     const line = this.scope.warning(text), what = line && surely(this.reading(text));
     if (!what) return line;
-    const rest = this.reader.withoutSubject(text), said = [rest, `a person ${rest}`].map((other) => this.reading(other));
+    const rest = this.reader.withoutSubject(this.reader.unwound(text)), said = [rest, `a person ${rest}`].map((other) => this.reading(other));
     return said.some((each) => each.known && surely(each) === what) ? null : line;
   }
 
@@ -185,7 +185,8 @@ export class Director {
   /** Whether a text asks for a way that nothing in it bends. */
   goesStraight(text) {
     const action = this.nearest(text);
-    return STEPPING.includes(action) && !this.reader.goesRound(text) && (!GOING.includes(action) || this.reader.sideOf(text) === "both");
+    const sided = this.reader.sideOf(text) !== "both" || this.reader.winding(text).length > 0;
+    return STEPPING.includes(action) && !this.reader.goesRound(text) && !(sided && GOING.includes(action));
   }
 
   // ---------------------------------------------------------------- a sentence
@@ -399,7 +400,7 @@ export class Director {
   async turns({ degrees, metres, count, text }) {
     if (degrees !== null || this.nearest(text) === "spin") return true;
     if (this.nearest(text) === "turn" && this.reader.sideOf(text) !== "both") return !this.reader.turnsHead(text);
-    return metres === null && count === 1 && (await this.bend(text)) !== 0;
+    return metres === null && count === 1 && (await this.bends(text)).length > 0;
   }
 
   /** Seconds of the clause's steps at its own pace; null where it does not go. */
@@ -409,16 +410,17 @@ export class Director {
     return steps * Math.sqrt((60 * WALK_RATIO) / speed);
   }
 
-  /** Degrees by which a walk or a run turns that is to turn, else 0: seen in what the network makes of it. */
-  async bend(text) {
-    const side = this.reader.sideOf(text), around = this.reader.goesRound(text);
-    if (!GOING.includes(this.nearest(text)) || !(around || side !== "both")) return 0;
+  /** Degrees by which a walk or a run turns that is to turn, one after the other: seen in what the network makes of it. */
+  async bends(text) {
+    const side = this.reader.sideOf(text), around = this.reader.goesRound(text), named = this.reader.winding(text);
+    if (!GOING.includes(this.nearest(text))) return [];
+    if (named.length || !(around || side !== "both")) return named;
     if (!this.bent.has(text)) {
       const { turning } = await naturalGait(this.sampler, text, 0), left = side === "both" ? turning > 0 : side === "left";
       const angle = around ? 360 : Math.abs(turning) < TURNING ? 0 : CORNER;
       this.bent.set(text, left ? angle : -angle);
     }
-    return this.bent.get(text);
+    return [this.bent.get(text)].filter(Boolean);
   }
 
   /** By the angle that is named; round a corner or in a circle; else in full circles, as many as are named or as fill the seconds. */
@@ -432,10 +434,10 @@ export class Director {
       const angle = CORNER * count * (side === "left" ? 1 : -1);
       return onTheSpot(count > 1 ? turned(angle, named ?? undefined) : turned(angle, seconds, Math.max((seconds - TURN_SECONDS) / 2, TURN_REST)));
     }
-    const bend = await this.bend(text);
-    if (bend && named === null) seconds = Math.max(seconds, Math.abs(bend) / SPIN_SPEED + 2 * TURN_REST);
-    if (bend) {
-      const given = Math.abs(bend) === CORNER ? turned(bend, seconds, Math.max((seconds - CORNER_SECONDS) / 2, TURN_REST)) : circled(bend, seconds);
+    const bends = await this.bends(text), total = bends.reduce((sum, bend) => sum + Math.abs(bend), 0);
+    if (total && named === null) seconds = Math.max(seconds, total / (bends.length > 1 ? WINDING_SPEED : SPIN_SPEED) + 2 * TURN_REST);
+    if (total) {
+      const given = total === CORNER ? turned(bends[0], seconds, Math.max((seconds - CORNER_SECONDS) / 2, TURN_REST)) : circled(bends, seconds);
       for (const [t, rate] of (await this.sway(text, framesOf(given.values), seed)).entries()) given.values[t * WIDTH + ROOT + YAW_RATE] += rate;
       return given;
     }
@@ -600,11 +602,15 @@ function onTheSpot(given) {
   return given;
 }
 
-/** A heading that turns by so many degrees, as fast at any moment: a way that closes. */
+/** A heading that turns by so many degrees, one after the other, as fast at any moment: once round, a way that closes. */
 function circled(degrees, seconds) {
-  const given = freeConstraint(round(seconds * FPS));
-  for (let t = 0; t < framesOf(given.values); t++) {
-    given.values[t * WIDTH + ROOT + YAW_RATE] = (degrees * Math.PI) / 180 / seconds;
+  const given = freeConstraint(round(seconds * FPS)), frames = framesOf(given.values), angles = degrees.map((angle) => (angle * Math.PI) / 180);
+  const total = angles.reduce((sum, angle) => sum + Math.abs(angle), 0);
+  let turned = 0;
+  const ends = angles.map((angle) => ((turned += Math.abs(angle)) / total) * frames);
+  for (let t = 0; t < frames; t++) {
+    const at = ends.findIndex((end, i) => t < end || i === ends.length - 1);
+    given.values[t * WIDTH + ROOT + YAW_RATE] = (Math.sign(angles[at]) * total) / seconds;
     given.known[t * WIDTH + ROOT + YAW_RATE] = 1;
   }
   return given;

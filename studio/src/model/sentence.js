@@ -629,6 +629,16 @@ export class SentenceReader {
     return left === right ? "both" : left ? "left" : "right";
   }
 
+  /** The degrees of a way in a figure of eight, or from side to side; none where a text names neither. */
+  winding(text) {
+    return this.first.eights.test(text) ? [360, -360] : this.first.winds.test(text) ? [45, -90, 90, -90, 45] : [];
+  }
+
+  /** A text without the words that name such a way. */
+  unwound(text) {
+    return text.replace(this.each.winds, " ").replace(this.each.eights, " ").trim();
+  }
+
   goesRound(text) {
     return this.first.round.test(text) && !this.first.corner.test(text);
   }

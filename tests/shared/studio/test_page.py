@@ -232,6 +232,20 @@ def test_steps_that_no_model_takes_are_refused(steps: int, tmp_path: Path) -> No
 
 
 @BROWSER
+@pytest.mark.parametrize(
+    "prompt", ["a person walks in a figure eight", "boxing combo: jab, jab, hook", "8の字に歩く"]
+)
+def test_ways_and_lists_are_those_of_the_command_line(
+    prompt: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
+) -> None:
+    made(browser, f"{{ blocks: [{{ text: '{prompt}', seconds: 2 }}], seed: 4 }}")
+    [wanted] = generator.generate([prompt], seconds=2.0, sampling=Sampling(seed=4))
+    assert_same(exported(browser, tmp_path), read_motion(write_bvh(wanted, tmp_path / "a.bvh")))
+    warned = browser.evaluate("document.querySelectorAll('#warnings li').length > 0")
+    assert warned == (generator.sentences.scope_warnings([prompt]) != [None])
+
+
+@BROWSER
 @pytest.mark.parametrize("language", PROMPTS)
 def test_a_sentence_gives_what_the_command_line_gives(
     language: str, browser: Browser, generator: MotionGenerator, tmp_path: Path
