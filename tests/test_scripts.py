@@ -15,6 +15,14 @@ import pytest
 from packaging.requirements import Requirement
 
 from src.shared.config_loader import load_network, load_train, split_network_overrides
+from src.shared.data.synthetic.clips import generate_clip, spec_for
+from src.shared.motion.features import (
+    FORWARD,
+    LATERAL,
+    ROOT_ROW,
+    decode_features,
+    encode_features,
+)
 from src.shared.motion.skeleton import JOINT_INDEX
 
 ROOT = Path(__file__).parent.parent
@@ -314,3 +322,20 @@ def test_a_nod_is_as_large_as_a_nod(gestures: ModuleType) -> None:
     down -= down[0]
     assert 10 < down.max() < 40  # the head itself as far again
     assert ((down[1:-1] > down[:-2]) & (down[1:-1] >= down[2:]) & (down[1:-1] > 8)).sum() >= 2
+
+
+def test_a_walk_to_the_side_becomes_one_ahead_on_the_same_feet() -> None:
+    labels = {"action": "walk", "direction": "forward", "speed": "normal"}
+    walk = generate_clip(spec_for(labels, 3), 3)
+    aside = encode_features(walk)
+    ahead, angle = aside[:, ROOT_ROW, FORWARD].clone(), np.radians(25.0)
+    aside[:, ROOT_ROW, LATERAL], aside[:, ROOT_ROW, FORWARD] = (
+        ahead * np.sin(angle), ahead * np.cos(angle)
+    )  # fmt: skip
+    before = decode_features(aside)
+    motion = load("walk_clips").faced(before, float(angle))
+    root = encode_features(motion)[:-1, ROOT_ROW]
+    assert abs(float(root[:, LATERAL].mean())) < 0.02 * float(root[:, FORWARD].mean())
+    balls = [JOINT_INDEX[name] for name in ("l_foot", "r_foot")]
+    off = (motion.positions() - before.positions())[:, balls]
+    assert np.ptp(off, axis=0).max() < 2e-3 and np.abs(off).max() < 0.06

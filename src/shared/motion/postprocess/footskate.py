@@ -67,7 +67,7 @@ def lock_feet(motion: Motion, *, kept: np.ndarray | None = None) -> Motion:
         angles[at, side] = angle.numpy()
         smooth = smoothed(angles, RISE_SECONDS * motion.fps)[at, side]
         rise = axis_turn(axis, torch.as_tensor(smooth))
-        solved = _move_legs(joints, positions[at], world[at], offsets, shift, rise)
+        solved = move_legs(joints, positions[at], world[at], offsets, shift, rise)
         before = quaternions[at[:, None], joints]
         sign = torch.where((solved * before).sum(-1, keepdim=True) < 0, -1.0, 1.0)
         locked[at[:, None], joints] = (solved * sign).float().numpy()
@@ -84,7 +84,7 @@ def _of_legs(values: Tensor, joints: np.ndarray) -> tuple[Tensor, ...]:
     )
 
 
-def _move_legs(
+def move_legs(
     joints: np.ndarray,
     positions: Tensor,
     world: Tensor,
