@@ -106,17 +106,13 @@ class MemoryTask(AudioTask):
     @torch.no_grad()
     def recall(self, phrases: PhraseBatch) -> MemoryCondition:
         """Each window's own question, what it must not find left out of the answers."""
-        settings = self.config.memory
         return as_condition(
             retrieve(
                 self.index,
                 self.space.embed_audio(phrases.audio, phrases.mask),
+                self.config.memory,
                 num_frames=phrases.audio.shape[-1],
                 phase=bars_of_sound(phrases.audio),
-                top_k=settings.top_k,
-                temperature=settings.temperature,
-                key=settings.key,
-                phase_weight=settings.phase_weight,
                 exclude_songs=[self.excluded(record) for record in phrases.records],
             )
         )

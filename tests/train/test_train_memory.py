@@ -124,10 +124,9 @@ def test_a_phrase_never_finds_its_own_song(task: MemoryTask) -> None:
     phrases = task.train.batch(1, 6)
     found = task.recall(phrases)
     query = task.space.embed_audio(phrases.audio, phrases.mask).detach()
-    settings = task.config.memory
-    options = {"num_frames": 32, "phase": bars_of_sound(phrases.audio), "top_k": settings.top_k}
+    options = {"num_frames": 32, "phase": bars_of_sound(phrases.audio)}
     own = [{record.id} for record in phrases.records]
-    apart = retrieve(task.index, query, exclude_songs=own, **options)
+    apart = retrieve(task.index, query, task.config.memory, exclude_songs=own, **options)
     torch.testing.assert_close(found.context, apart.context)
     assert apart.hits is not None
     for songs, hits in zip(own, apart.hits.index.tolist(), strict=True):

@@ -15,12 +15,10 @@ from ..config_audio import MemoryConfig
 from ..model.audio.shared_space import SharedSpace
 from ..motion.trajectory import FPS, PHASE, VELOCITY, unwrap_phase
 from .build import BATCH, cut_at_bars, padded
-from .index import NOTHING, PHASE_WEIGHT, Excluded, Hits, Key, MemoryIndex
+from .index import NOTHING, Excluded, Hits, Key, MemoryIndex
 from .priors import NUM_PRIORS
 
 CONTEXT_DIM = 256  # ruling 26
-TOP_K = 8
-TEMPERATURE = 0.07
 NEAR = 0.05  # bars by which a query may begin before a phrase and still begin with it
 _SEED = 26
 
@@ -54,20 +52,17 @@ def null_memory(batch: int, num_frames: int) -> Memory:
 def retrieve(
     index: MemoryIndex,
     query: Tensor,
+    config: MemoryConfig | None = None,
     *,
     num_frames: int,
     phase: Tensor | float | None = None,
-    top_k: int = TOP_K,
-    temperature: float = TEMPERATURE,
     exclude_songs: Excluded | None = None,
-    key: Key = "audio",
-    phase_weight: float = PHASE_WEIGHT,
 ) -> Memory:
     """Search, then tell a network about the hits.
 
     The context is the mean of the hits' motion keys, weighted by a softmax of score over
-    `temperature`, then carried from D to 256 numbers by a fixed orthonormal map (ruling 26). The
-    priors are the same mean of the hits' curves, each laid along the query's bars.
+    `config.temperature`, then carried from D to 256 numbers by a fixed orthonormal map (ruling
+    26). The priors are the same mean of the hits' curves, each laid along the query's bars.
 
     The confidence is m / (1 - a), limited to [0,1]: a is the query's mean similarity to all
     phrases, m by how much the weighted similarity of the hits exceeds it. The query itself gives
@@ -76,35 +71,36 @@ def retrieve(
     Args:
         index: the memory.
         query: [B,D], unit.
+        config: `top_k`, `key`, `phase_weight` of the search, `temperature`.
         num_frames: T.
         phase: bars at the query's frames [B,T], unwrapped: curves follow its tempo. Or those of
             its first frame, [B] or a number: each hit keeps its own tempo. None: 0, and phrases
             are not judged by their phase.
-        top_k, exclude_songs, key, phase_weight: see `MemoryIndex.search`.
-        temperature: of the softmax.
+        exclude_songs: see `MemoryIndex.search`.
 
     Raises:
         ValueError: query or phase of another shape.
     """
     index.check_width(query)
+    config = config or MemoryConfig()
     bars = query_bars(phase, len(query), num_frames)
     start = None if phase is None else torch.from_numpy(bars[:, 0] % 1)
     hits = index.search(
         query,
-        top_k=top_k,
+        top_k=config.top_k,
         exclude_songs=exclude_songs,
-        key=key,
+        key=config.key,
         phase=start,
-        phase_weight=phase_weight,
+        phase_weight=config.phase_weight,
     )
     found = (hits.index != NOTHING).any(1)
-    weights = torch.softmax(hits.score / temperature, dim=1).masked_fill(~found[:, None], 0)
+    weights = torch.softmax(hits.score / config.temperature, dim=1).masked_fill(~found[:, None], 0)
     keys = index.motion_keys[hits.index.clamp(min=0)]  # B k D
     context = torch.einsum("bk,bkd->bd", weights, keys) @ projection(index.dim).T
     return Memory(
         context,
         torch.from_numpy(_blend(index, hits, weights.numpy(), bars, num_frames)),
-        _confidence(index, query, hits, weights, key),
+        _confidence(index, query, hits, weights, config.key),
         hits,
     )
 
@@ -252,6 +248,7 @@ def query_song(
         config: `bars`, `min_frames`, `top_k`, `phase_weight`, ...
     """
     bars = np.arange(condition.shape[1]) / (BEATLESS * FPS) if phase is None else phase
+    config = config.model_copy(update={"key": "audio"})
     cuts = cut_at_bars(bars, bars=config.bars, step=1, min_frames=config.min_frames)
     results: list[QueryResult] = []
     for first in range(0, len(cuts), BATCH):
@@ -261,12 +258,9 @@ def query_song(
         memory = retrieve(
             index,
             space.embed_audio(windows, mask).cpu(),
+            config,
             num_frames=1,
             phase=None if phase is None else starts,
-            top_k=config.top_k,
-            temperature=config.temperature,
-            key="audio",
-            phase_weight=config.phase_weight,
         )
         assert memory.hits is not None
         for row, (start, stop) in enumerate(part):
@@ -284,14 +278,8 @@ def query_song(
 
 def query_text(index: MemoryIndex, embedding: Tensor, *, config: MemoryConfig) -> QueryResult:
     """The phrases whose motion is nearest to a text's embedding [1,D]."""
-    memory = retrieve(
-        index,
-        embedding,
-        num_frames=1,
-        top_k=config.top_k,
-        temperature=config.temperature,
-        key="motion",
-    )
+    config = config.model_copy(update={"key": "motion"})
+    memory = retrieve(index, embedding, config, num_frames=1)
     assert memory.hits is not None
     return QueryResult(float(memory.confidence[0]), describe(index, memory.hits, 0))
 

@@ -131,26 +131,21 @@ class MPMService:
         """The search, and B; mistakes of the caller show here, not as nulls."""
         if self.index is None:
             raise RuntimeError("await initialize() before the first query")
-        index, config = self.index, self.config
+        index = self.index
         query = torch.atleast_2d(torch.as_tensor(audio_embedding).detach().float().cpu())  # type: ignore[no-untyped-call]
         index.check_width(query)
         phase = None if beat_phase is None else torch.as_tensor(beat_phase).detach().cpu()
         query_bars(phase, len(query), num_frames)
         excluded = [exclude_songs] * len(query) if isinstance(exclude_songs, Set) else exclude_songs
-        if excluded is not None and len(excluded) != len(query):
-            raise ValueError(f"exclude_songs has {len(excluded)} entries, not {len(query)}")
-
+        index.banned(excluded, len(query))  # raises where it is not one entry a query
         search = partial(
             retrieve,
             index,
             query,
+            self.config,
             num_frames=num_frames,
             phase=phase,
-            top_k=config.top_k,
-            temperature=config.temperature,
             exclude_songs=excluded,
-            key=config.key,
-            phase_weight=config.phase_weight,
         )
         return self._workers.submit(search), len(query)
 

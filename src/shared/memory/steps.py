@@ -501,11 +501,6 @@ def _flow(sign: float, time: Array, own: Array, up: Array) -> Angles:
     }  # fmt: skip
 
 
-def _waist(sign: float, time: Array, own: Array, up: Array) -> Angles:
-    """Hands at the waist, one elbow forward and the other back with the weight."""
-    return {"flex": 4 - 16 * own, "abduct": 40 + 8 * up, "elbow": 98 - 8 * up, "twist": -36.0}
-
-
 def _hold(sign: float, time: Array, own: Array, up: Array) -> Angles:
     """As if round a partner: elbows out at the height of the shoulders, forearms ahead."""
     return {
@@ -554,6 +549,6 @@ def _sweep(sign: float, time: Array, own: Array, up: Array) -> Angles:
 
 ARMS: dict[str, Arms] = {
     "swing": _swing, "open": _open, "reach": _reach, "circle": _circle, "high": _high,
-    "push": _push, "flow": _flow, "waist": _waist, "bloom": _bloom, "sweep": _sweep,
-    "gather": _gather, "fan": _fan, "hold": _hold,
+    "push": _push, "flow": _flow, "bloom": _bloom, "sweep": _sweep, "gather": _gather,
+    "fan": _fan, "hold": _hold,
 }  # fmt: skip

@@ -6,9 +6,12 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
+from src.shared.config_audio import MemoryConfig
 from src.shared.memory.index import MemoryIndex
 from src.shared.memory.query import lay, null_memory, projection, retrieve
 from tests.shared.memory.tiny_memory import make_index, make_phrase
+
+ONE = MemoryConfig(top_k=1)
 
 
 @pytest.mark.parametrize("dim", [8, 192, 256])
@@ -26,7 +29,7 @@ def test_the_projection_is_the_same_everywhere() -> None:
 
 def test_the_query_itself_is_remembered_with_confidence() -> None:
     index = make_index()
-    memory = retrieve(index, index.audio_keys[3:4], num_frames=60, top_k=1, phase=0.75)
+    memory = retrieve(index, index.audio_keys[3:4], ONE, num_frames=60, phase=0.75)
     assert memory.hits is not None and memory.hits.index.tolist() == [[3]]
     assert torch.allclose(memory.context[0], projection(16) @ index.motion_keys[3], atol=1e-6)
     assert torch.allclose(memory.confidence, torch.ones(1), atol=1e-5)
@@ -36,7 +39,7 @@ def test_the_query_itself_is_remembered_with_confidence() -> None:
 def test_the_context_is_a_softmax_mean() -> None:
     index = make_index()
     query = torch.nn.functional.normalize(torch.randn(2, 16), dim=-1)
-    memory = retrieve(index, query, num_frames=9, top_k=4, temperature=0.5)
+    memory = retrieve(index, query, MemoryConfig(top_k=4, temperature=0.5), num_frames=9)
     score = query @ index.audio_keys.T
     for row in range(2):
         best = score[row].argsort(descending=True)[:4]
@@ -63,7 +66,7 @@ def test_nothing_is_known_where_everything_is_excluded() -> None:
 
 def test_one_phrase_is_a_memory() -> None:
     index = MemoryIndex.from_phrases([make_phrase(0)])
-    memory = retrieve(index, index.audio_keys, num_frames=30, top_k=8)
+    memory = retrieve(index, index.audio_keys, num_frames=30)
     assert torch.isfinite(memory.context).all() and 0 <= memory.confidence[0] <= 1
     assert memory.hits is not None and memory.hits.index.tolist() == [[0] + [-1] * 7]
 
@@ -124,5 +127,5 @@ def test_a_phrase_of_less_than_a_bar_holds_its_end() -> None:
 def test_a_slower_query_stretches_the_curves() -> None:
     index = make_index()
     bars = torch.arange(120)[None] / 60 + 0.75  # the phrase has a bar of 30 frames
-    memory = retrieve(index, index.audio_keys[3:4], num_frames=120, top_k=1, phase=bars)
+    memory = retrieve(index, index.audio_keys[3:4], ONE, num_frames=120, phase=bars)
     assert np.allclose(memory.priors[0, :, :116:2], index.prior(3)[:, :58], atol=0.05)

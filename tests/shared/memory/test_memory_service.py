@@ -67,13 +67,8 @@ def test_two_hundred_at_once_are_right_or_counted_nulls() -> None:
     answers = asyncio.run(asyncio.wait_for(everyone(), 60))
     nulls = right = 0
     for (number, phase), answer in zip(asked, answers, strict=True):
-        truth = retrieve(
-            healthy,
-            healthy.audio_keys[number : number + 1],
-            num_frames=FRAMES,
-            phase=phase,
-            top_k=3,
-        )
+        asked_for = healthy.audio_keys[number : number + 1]
+        truth = retrieve(healthy, asked_for, MemoryConfig(top_k=3), num_frames=FRAMES, phase=phase)
         if is_null(answer):
             nulls += 1
         else:

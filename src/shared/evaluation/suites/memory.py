@@ -78,18 +78,16 @@ class Asker:
         stray questions."""
         if not arm.asks:
             return None
-        hidden, config = self.hidden(arm.share), self.config
+        hidden = self.hidden(arm.share)
+        config = self.config.model_copy(update={"top_k": arm.top_k or self.config.top_k})
 
         def ask(keys: Tensor) -> Memory:
             return retrieve(
                 self.index,
                 keys,
+                config,
                 num_frames=num_frames,
                 phase=None if bars is None else torch.as_tensor(bars).reshape(len(keys), -1),
-                top_k=arm.top_k or config.top_k,
-                temperature=config.temperature,
-                key=config.key,
-                phase_weight=config.phase_weight,
                 exclude_songs=[hidden | {song} for song in songs],
             )
 
