@@ -28,7 +28,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .features import centred_frames
+from .features import spectra
 from .sound import loud_part
 
 # ---------------------------------------------------------------- onsets
@@ -40,7 +40,6 @@ LOWEST, LOW, HIGH, HIGHEST = 30.0, 180.0, 2500.0, 16_000.0  # Hz: edges of the t
 LOWEST_PITCH, SEMITONES = 33, 60  # MIDI numbers from 55 Hz on
 FLOOR_DB = 60.0  # below the loudest band
 SILENCE_POWER = 1e-9  # power of the loudest frame; about -80 dB full scale
-BLOCK_FRAMES = 512
 LAG = 2  # frames over which a rise is measured
 
 
@@ -101,17 +100,10 @@ def _framing(sample_rate: int, fps: float, seconds: float) -> tuple[int, np.ndar
 
 def _powers(samples: np.ndarray, hop: int, filters: np.ndarray) -> np.ndarray:
     """Powers [bands, T = 1 + S // hop] of samples [S] through filters [bands, bins]."""
-    from scipy.fft import rfft  # single precision stays single, unlike numpy's
-
     samples, size = samples.astype(np.float32, copy=False), 2 * (filters.shape[1] - 1)
     window = np.hanning(size + 1)[:-1].astype(np.float32)
     window = window * np.float32(2 / window.sum())
-    parts, count = [], 1 + len(samples) // hop
-    for first in range(0, count, BLOCK_FRAMES):
-        block = range(first, min(first + BLOCK_FRAMES, count))
-        spectrum = rfft(centred_frames(samples, block, size, hop) * window, axis=1)
-        parts.append((spectrum.real**2 + spectrum.imag**2) @ filters.T)
-    return np.concatenate(parts).T
+    return np.concatenate([power @ filters.T for *_, power in spectra(samples, hop, window)]).T
 
 
 def mel_filters(bins: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

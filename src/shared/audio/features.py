@@ -27,7 +27,7 @@ from ..errors import UsageError, UserError
 from ..io.arrays import BadArray, load_arrays
 from .sound import FPS, HOP, SAMPLE_RATE, Sound, load_sound
 
-N_FFT = 2048
+N_FFT, BLOCK = 2048, 512  # samples of a frame, frames that are transformed at a time
 FLOOR_POWER = 1e-10
 RANGE_DB = 80.0
 
@@ -46,18 +46,19 @@ def centred_frames(samples: np.ndarray, indices: range, size: int, hop: int) -> 
     return np.lib.stride_tricks.sliding_window_view(piece, size)[::hop]
 
 
-def spectra(
-    samples: np.ndarray, hop: int, *, block: int = 512
-) -> Iterator[tuple[range, np.ndarray, np.ndarray]]:
-    """Yield (frame indices, frames [t,N], power spectra [t,F]) of the centred Hann STFT."""
-    from scipy.fft import rfft
+HANN = (0.5 - 0.5 * np.cos(2 * np.pi * np.arange(N_FFT) / N_FFT)).astype(np.float32)  # periodic
 
-    window = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(N_FFT) / N_FFT)  # periodic Hann
-    window = window.astype(np.float32)
+
+def spectra(
+    samples: np.ndarray, hop: int, window: np.ndarray = HANN
+) -> Iterator[tuple[range, np.ndarray, np.ndarray]]:
+    """Yield (frame indices, frames [t,N], power spectra [t,F]) of the centred STFT."""
+    from scipy.fft import rfft  # single precision stays single, unlike numpy's
+
     count = 1 + len(samples) // hop
-    for first in range(0, count, block):
-        indices = range(first, min(first + block, count))
-        frames = centred_frames(samples, indices, N_FFT, hop)
+    for first in range(0, count, BLOCK):
+        indices = range(first, min(first + BLOCK, count))
+        frames = centred_frames(samples, indices, len(window), hop)
         spectrum = rfft(frames * window, axis=1)
         yield indices, frames, np.square(spectrum.real) + np.square(spectrum.imag)
 
@@ -405,9 +406,7 @@ def silent_spans(loudness: np.ndarray, fps: float = 30.0) -> list[tuple[int, int
         loudness: RMS [T], 0 to 1; all of it silent where nothing sounds.
         fps: frames a second.
     """
-    quiet = loudness <= QUIET * float(np.percentile(loudness, 95))
-    edges = np.flatnonzero(np.diff(quiet.astype(int), prepend=0, append=0)).reshape(-1, 2)
-    return [(start, stop) for start, stop in edges.tolist() if stop - start >= WAIT * fps]
+    return _spans(loudness <= QUIET * float(np.percentile(loudness, 95)), WAIT * fps)
 
 
 def noise_spans(
@@ -430,8 +429,13 @@ def noise_spans(
     pitch = np.where(mean > 0, chroma.max(0) / mean.clip(min=1e-9), np.inf)
     low, high = (percentile_filter(loudness, share, near, mode="nearest") for share in (10, 90))
     flat = (median_filter(pitch, near, mode="nearest") < FLAT) & (high < EVEN * low)
-    edges = np.flatnonzero(np.diff(flat.astype(int), prepend=0, append=0)).reshape(-1, 2)
-    return [(start, stop) for start, stop in edges.tolist() if stop - start >= LONG_NOISE * fps]
+    return _spans(flat, LONG_NOISE * fps)
+
+
+def _spans(marked: np.ndarray, least: float) -> list[tuple[int, int]]:
+    """First and past-the-last frame of each run of so many frames or more in bool [T]."""
+    edges = np.flatnonzero(np.diff(marked.astype(int), prepend=0, append=0)).reshape(-1, 2)
+    return [(start, stop) for start, stop in edges.tolist() if stop - start >= least]
 
 
 def is_noise(chroma: np.ndarray) -> bool:

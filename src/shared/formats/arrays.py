@@ -26,7 +26,7 @@ from ..errors import UserError
 from ..io.arrays import write_arrays
 from ..motion.motion import Motion
 from ..motion.skeleton import JOINT_NAMES, NUM_JOINTS, canonical_skeleton
-from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory
+from ..motion.trajectory import CHANNELS, FPS, QUATERNION, MotionTrajectory, from_motion
 from .limits import check_numbers, check_plausible, read_array, read_arrays
 
 FORMAT_VERSION = 1
@@ -127,13 +127,15 @@ def write_trajectory_npz(trajectory: MotionTrajectory, path: str | Path) -> Path
 
 
 def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
-    """Read a trajectory that `write_trajectory_npz` wrote.
+    """Read a trajectory that `write_trajectory_npz` wrote; of a motion's file its pelvis.
 
     Raises:
         UserError: missing, damaged, not ours, of another shape, or holding NaN.
     """
     path = Path(path)
     arrays = load_arrays(path)
+    if "root_position" in arrays:
+        return from_motion(read_npz(path))
     if "beat_times" in arrays:
         raise UserError(f"{path}: is an analysed song, not a trajectory; "
                         "`features SONG --plot PICTURE` draws it")  # fmt: skip

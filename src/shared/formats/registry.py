@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import UsageError, UserError
 from ..motion.motion import Danced, Motion
-from ..motion.trajectory import MotionTrajectory, from_motion
+from ..motion.trajectory import MotionTrajectory
 from .preview.trajectory import SongTrack
 from .rig import RigClip
 
@@ -71,7 +71,7 @@ TRAJECTORY_EXPORTERS: dict[str, Callable[[MotionTrajectory, Path, SongTrack, str
     "png": _lazy("preview.charts", "render_trajectory"),
 }
 TRAJECTORY_READERS: dict[str, Callable[[Path], MotionTrajectory]] = {
-    "npz": lambda path: _trajectory_of_npz(path),
+    "npz": _lazy("arrays", "read_trajectory_npz"),
     "npy": _lazy("arrays", "read_trajectory_npy"),
     "csv": _lazy("csv_files", "read_trajectory_csv"),
 }
@@ -208,14 +208,6 @@ def read_trajectory(path: str | Path) -> MotionTrajectory:
             f" {', '.join(TRAJECTORY_READERS)}; `convert` draws a body: convert CLIP CLIP.png"
         )
     return TRAJECTORY_READERS[name](path)
-
-
-def _trajectory_of_npz(path: Path) -> MotionTrajectory:
-    from .arrays import load_arrays, read_npz, read_trajectory_npz
-
-    if "root_position" in load_arrays(path):
-        return from_motion(read_npz(path))
-    return read_trajectory_npz(path)
 
 
 def write_trajectory(

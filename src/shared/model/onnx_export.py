@@ -51,6 +51,13 @@ class SymbolicRotary(RotaryEmbedding):
         angles = positions[:, None, None] * self.frequencies
         return angles.cos(), angles.sin()
 
+    def turned(self, heads: Tensor) -> Tensor:
+        """[B, T, H, d] -> the same, rotated: `forward` in fewer nodes."""
+        cos, sin = self._tables(heads.shape[1], heads.device)
+        first, second = heads.chunk(2, dim=-1)
+        crossed = torch.cat([second, first], -1) * torch.cat([-sin, sin], -1)
+        return heads * torch.cat([cos, cos], -1) + crossed
+
 
 def symbolic(module: ModuleT, twins: Mapping[type, type] | None = None) -> ModuleT:
     """The network again, on the CPU, in layers that the exporter can follow."""
@@ -69,8 +76,9 @@ def traced(
     """The graph of a module, an onnx `ModelProto` that holds its weights."""
     shapes: list[Any] = [own for _, own in inputs.values()]
     kinds = [each.kind for each in inspect.signature(module.forward).parameters.values()]
-    if inspect.Parameter.VAR_POSITIONAL in kinds:  # these are one argument, a tuple
-        shapes[len(kinds) - 1 :] = [tuple(shapes[len(kinds) - 1 :])]
+    others = shapes[len(kinds) - 1 :]
+    if inspect.Parameter.VAR_POSITIONAL in kinds and others:  # these are one argument, a tuple
+        shapes[-len(others) :] = [tuple(others)]
     with torch.no_grad(), _quiet():
         program = torch.onnx.export(
             module,
@@ -92,16 +100,6 @@ def traced(
     model.graph.ClearField("metadata_props")
     model.ClearField("metadata_props")
     return model
-
-
-def write_graph(model: Any, path: Path) -> GraphInfo:
-    """Write a graph of `traced` that reads its weights from the model.safetensors beside it.
-
-    Raises:
-        UserError: it cannot be written.
-    """
-    link_weights(model, path.parent)
-    return _write(model, path)
 
 
 def _write(model: Any, path: Path, weights: tuple[str, ...] = ()) -> GraphInfo:
@@ -163,7 +161,9 @@ def write_export(
         READY + name: _write(path=folder / (READY + name), **ready(graphs[name], folder))
         for name in also_ready
     }
-    written |= {name: write_graph(graph, folder / name) for name, graph in graphs.items()}
+    for name, graph in graphs.items():
+        link_weights(graph, folder)
+        written[name] = _write(graph, folder / name)
     result = kind(
         name=card.name,
         description=card.description,
@@ -197,17 +197,19 @@ def link_weights(model: Any, folder: Path) -> None:
         value = numpy_helper.to_array(each)
         lookups = [node for node in rest if each.name in node.input]
         looked_up = all(_looks_up(node, each.name) for node in lookups)
-        name, turned = known.get(_digest(value), ("", False))
-        if not name:
+        alike = known.get(_digest(value), [])
+        if not alike:
             inside.append(each)
             continue
+        name = max(reversed(alike), key=lambda name: not name.endswith(TURNED))
+        turned = name.endswith(TURNED)
         if looked_up and not turned:
             for node in lookups:
                 at, found = rest.index(node), (node.output[0], header, outside, node.input[1])
                 rest[at : at + 1] = _stored(name, *found)
             continue
         plain = f"{each.name}/turned" if turned else each.name
-        nodes += _stored(name, plain, header, outside)
+        nodes += _stored(name.removesuffix(TURNED), plain, header, outside)
         if turned:
             nodes.append(helper.make_node("Transpose", [plain], [each.name]))
     graph.ClearField("initializer")
@@ -240,7 +242,7 @@ def ready(model: Any, folder: Path) -> dict[str, Any]:
     versions = [each for each in found.opset_import if each.domain in used]
     found.ClearField("opset_import")
     found.opset_import.extend(versions)
-    known, names = _all_known(folder), dict[str, str]()  # what they are called: their names
+    known, names = _known(folder), dict[str, str]()  # what they are called: their names
     for each in found.graph.initializer:
         alike = known.get(_digest(onnx.numpy_helper.to_array(each)), [])
         if alike and each.data_type == onnx.TensorProto.FLOAT:
@@ -256,17 +258,9 @@ def ready(model: Any, folder: Path) -> dict[str, Any]:
     return {"model": found, "weights": tuple(names.values())}
 
 
-def _known(folder: Path) -> dict[str, tuple[str, bool]]:
-    """Digests of a folder's tensors, as they are and transposed: their names, and which it is."""
-    known = dict[str, tuple[str, bool]]()
-    for digest, names in _all_known(folder).items():
-        name = max(reversed(names), key=lambda each: not each.endswith(TURNED))
-        known[digest] = (name.removesuffix(TURNED), name.endswith(TURNED))
-    return known
-
-
-def _all_known(folder: Path) -> dict[str, list[str]]:
-    """The same with all that are alike: their names, TURNED behind those that are transposed."""
+def _known(folder: Path) -> dict[str, list[str]]:
+    """Digests of a folder's tensors, as they are and transposed, and the names of those that are
+    alike, TURNED behind those that are transposed."""
     known = defaultdict[str, list[str]](list)
     for name, tensor in read_tensors(folder, read_card(folder)).items():
         value = tensor.numpy()
@@ -332,8 +326,8 @@ def _read(
     shape: Sequence[int],
     header: Mapping[str, Any],
     outside: dict[str, Any],
-) -> str:
-    """Add an initializer that is read from the file of the weights; what it is called."""
+) -> None:
+    """Add an initializer that is read from the file of the weights."""
     from onnx import TensorProto
 
     types = {"F32": TensorProto.FLOAT, "F16": TensorProto.FLOAT16, "I8": TensorProto.INT8,
@@ -347,7 +341,6 @@ def _read(
     for key, each in where.items():
         tensor.external_data.add(key=key, value=str(each))
     outside[called] = tensor
-    return called
 
 
 _START = ""  # in a header, where the data begins; no tensor has such a name

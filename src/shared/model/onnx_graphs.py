@@ -208,15 +208,12 @@ class OnnxDenoiser(nn.Module):
             "mask": np.ones(noisy.shape[:2], dtype=bool) if mask is None else mask,
             "known": np.zeros(noisy.shape, dtype=bool) if known is None else known,
         }
-        if text.opened is None:
-            return run(self._session(-1, self._one_step), **heard)[0]
-        opened = np.asarray(text.opened)
-        adapters = np.where(opened.any(1), opened.argmax(1), -1)
-        first, *others = np.unique(adapters).tolist()
-        if not others:
-            return run(self._session(first, self._one_step), **heard)[0]
+        adapters = np.full(len(noisy), -1)
+        if text.opened is not None:
+            opened = np.asarray(text.opened)
+            adapters = np.where(opened.any(1), opened.argmax(1), -1)
         prediction = np.empty(noisy.shape, np.float32)
-        for adapter in (first, *others):
+        for adapter in np.unique(adapters).tolist():
             rows = adapters == adapter
             own = {name: np.asarray(values)[rows] for name, values in heard.items()}
             prediction[rows] = run(self._session(adapter, self._one_step), **own)[0]

@@ -26,7 +26,15 @@ from ...motion.trajectory import CHANNELS, PHASE
 from ..checkpoint import CARD_FILE, WEIGHTS_FILE, resolve_model
 from ..layers import KeyValue, sinusoidal
 from ..onnx_card import AUDIO_GRAPHS, AudioOnnxCard
-from ..onnx_export import EXAMPLE_FRAMES, Shapes, process_info, symbolic, traced, write_export
+from ..onnx_export import (
+    EXAMPLE_FRAMES,
+    Shapes,
+    SymbolicRotary,
+    process_info,
+    symbolic,
+    traced,
+    write_export,
+)
 from . import CONDITION_ROWS
 from .audio_motion_model import AudioMotionModel
 from .decoder import Decoder, wrapped_phase
@@ -116,12 +124,7 @@ class ImageAttention(AttentionBlock):
 
     def _turned(self, heads: Tensor) -> Tensor:
         """[B, T, H, d] -> the same."""
-        if self.rotary is None:
-            return heads
-        cos, sin = self.rotary._tables(heads.shape[1], heads.device)
-        first, second = heads.chunk(2, dim=-1)
-        crossed = torch.cat([second, first], -1) * torch.cat([-sin, sin], -1)
-        return heads * torch.cat([cos, cos], -1) + crossed
+        return self.rotary.turned(heads) if isinstance(self.rotary, SymbolicRotary) else heads
 
     def _mixed(self, query: Tensor, key: Tensor, value: Tensor, out: nn.Module) -> Tensor:
         """Query [B, T, H, d], key and value [B, H, L, d] -> [B, C, 1, T]."""

@@ -28,7 +28,14 @@ from ..clip.style_map import STYLE_FILE
 from ..clip.tokenizer import META_FILE, MODEL_FILE, TOKENIZER_FOLDER
 from ..layers import AdaptedLinear, MultiHeadAttention
 from ..onnx_card import TextOnnxCard, TokenizerInfo
-from ..onnx_export import EXAMPLE_FRAMES, process_info, symbolic, traced, write_export
+from ..onnx_export import (
+    EXAMPLE_FRAMES,
+    SymbolicRotary,
+    process_info,
+    symbolic,
+    traced,
+    write_export,
+)
 from ..onnx_graphs import ADAPTED_GRAPH, DENOISER_GRAPH, TEXT_GRAPH
 from .constraint import MIN_FRAMES
 from .denoiser import MotionDenoiser, vectors
@@ -81,13 +88,10 @@ class SymbolicAttention(MultiHeadAttention):
         self, x: Tensor, mask: Tensor | None = None, opened: Tensor | None = None
     ) -> Tensor:
         """See MultiHeadAttention; `mask` is there and has a frame of each sample."""
-        assert mask is not None and self.rotary is not None
+        assert mask is not None and isinstance(self.rotary, SymbolicRotary)
         heads = self.qkv(x, opened).unflatten(-1, (3 * self.num_heads, -1))  # [B, T, 3H, d]
         positioned, value = heads.split([2 * self.num_heads, self.num_heads], dim=2)
-        cos, sin = self.rotary._tables(x.shape[1], x.device)
-        first, second = positioned.chunk(2, dim=-1)
-        crossed = torch.cat([second, first], -1) * torch.cat([-sin, sin], -1)
-        query, key = (positioned * torch.cat([cos, cos], -1) + crossed).chunk(2, dim=2)
+        query, key = self.rotary.turned(positioned).chunk(2, dim=2)
         scores = query.transpose(1, 2) @ key.permute(0, 2, 3, 1) * value.shape[-1] ** -0.5
         scores = scores + torch.where(mask, 0.0, -1e4)[:, None, None]  # [B, H, T, T]
         mixed = scores.softmax(dim=-1) @ value.transpose(1, 2)  # [B, H, T, d]
@@ -154,12 +158,10 @@ class DenoiserGraph(nn.Module):
         tag: Tensor,
         mask: Tensor,
         known: Tensor,
-        first: Tensor | None = None,
-        second: Tensor | None = None,
-        third: Tensor | None = None,
+        *others: Tensor,
     ) -> Tensor:
         """See this module's head."""
-        more = dict(zip(self.more, (first, second, third), strict=False))
+        more = dict(zip(self.more, others, strict=True))
         tokens, token_mask = more.get("tokens"), more.get("token_mask")
         if tokens is None or token_mask is None:
             tokens = pooled[:, None]
