@@ -403,11 +403,7 @@ def render_song(spec: SongSpec) -> SyntheticSong:
 
 
 def sample_song_specs(
-    number: int,
-    seed: int,
-    split: Literal["train", "held-out"] = "train",
-    *,
-    seconds: float = 30.0,
+    number: int, seed: int, split: Literal["train", "held-out"] = "train", *, seconds: float = 30.0
 ) -> list[SongSpec]:
     """Draw songs whose every tempo lies in the bands of `split`.
 

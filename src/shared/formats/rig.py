@@ -13,11 +13,7 @@ import numpy as np
 
 from ..errors import UsageError
 from ..motion.motion import Motion
-from ..motion.rotations import (
-    matrix_to_quaternion,
-    quaternion_continuous,
-    quaternion_to_matrix,
-)
+from ..motion.rotations import matrix_to_quaternion, quaternion_continuous, quaternion_to_matrix
 from ..motion.skeleton import JOINT_INDEX, JOINT_NAMES, REST_PELVIS_HEIGHT, canonical_skeleton
 from ..tensors import torch
 

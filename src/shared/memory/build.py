@@ -333,11 +333,7 @@ class _Job:
 
 
 def _run(
-    jobs: list[_Job],
-    source: Source,
-    workers: int | None,
-    scheduler: str | None,
-    progress: Progress,
+    jobs: list[_Job], source: Source, workers: int | None, scheduler: str | None, progress: Progress
 ) -> None:
     """Make the parts that are missing. One that left a phrase out is: it may be better now."""
     todo = [job for job in jobs if not _whole(job)]

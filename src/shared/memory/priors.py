@@ -31,10 +31,7 @@ MIN_ONSET = 0.1  # of the loudest onset's strength
 
 
 def prior_curves(
-    trajectory: np.ndarray,
-    *,
-    onsets: np.ndarray | None = None,
-    contacts: np.ndarray | None = None,
+    trajectory: np.ndarray, *, onsets: np.ndarray | None = None, contacts: np.ndarray | None = None
 ) -> np.ndarray:
     """Rows ENERGY, DENSITY, TENSION, STABILITY [4,T] float32 in [0,1].
 

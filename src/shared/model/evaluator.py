@@ -35,14 +35,7 @@ from ..motion.motion import Motion
 from ..motion.rotations import forward_kinematics, rotation_6d_to_matrix
 from ..motion.skeleton import NUM_JOINTS, canonical_skeleton
 from . import checkpoint
-from .checkpoint import (
-    PRETRAINED,
-    WeightsInfo,
-    check_weights,
-    dequantise,
-    quantise,
-    weights_info,
-)
+from .checkpoint import PRETRAINED, WeightsInfo, check_weights, dequantise, quantise, weights_info
 
 FPS = 30.0
 NUM_FEATURES = 1 + 2 * 3 * (NUM_JOINTS - 1) + 3

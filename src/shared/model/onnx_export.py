@@ -26,16 +26,7 @@ from .checkpoint import INT8_SCALE, WEIGHTS_FILE, ModelCard, read_card, read_ten
 from .diffusion import GaussianDiffusion
 from .layers import RotaryEmbedding
 from .noise import sampling_timesteps
-from .onnx_card import (
-    ONNX_CARD,
-    OPSET,
-    READY,
-    TURNED,
-    CardT,
-    GraphInfo,
-    ProcessInfo,
-    ValueInfo,
-)
+from .onnx_card import ONNX_CARD, OPSET, READY, TURNED, CardT, GraphInfo, ProcessInfo, ValueInfo
 
 EXAMPLE_FRAMES = 37  # no multiple of anything, so that no length is taken for a constant
 Shapes = Mapping[int, Any]  # dimension -> its symbol: a name, or a `torch.export.Dim`
@@ -69,9 +60,7 @@ def symbolic(module: ModuleT, twins: Mapping[type, type] | None = None) -> Modul
 
 
 def traced(
-    module: nn.Module,
-    inputs: Mapping[str, tuple[Tensor, Shapes]],
-    outputs: Sequence[str],
+    module: nn.Module, inputs: Mapping[str, tuple[Tensor, Shapes]], outputs: Sequence[str]
 ) -> Any:
     """The graph of a module, an onnx `ModelProto` that holds its weights."""
     shapes: list[Any] = [own for _, own in inputs.values()]

@@ -361,10 +361,7 @@ class UNet1D(nn.Module):
     # Conditions
 
     def prepare(
-        self,
-        condition: Tensor,
-        drop: Tensor | None = None,
-        memory: MemoryCondition | None = None,
+        self, condition: Tensor, drop: Tensor | None = None, memory: MemoryCondition | None = None
     ) -> Prepared:
         """All that depends on the condition alone.
 

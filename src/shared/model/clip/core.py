@@ -117,11 +117,7 @@ class TextTower(nn.Module):
     """
 
     def __init__(
-        self,
-        config: ClipConfig,
-        embed_dim: int,
-        *,
-        encoder_config: Mapping[str, Any] | None = None,
+        self, config: ClipConfig, embed_dim: int, *, encoder_config: Mapping[str, Any] | None = None
     ) -> None:
         super().__init__()
         self.config, self.embed_dim = config, embed_dim
@@ -279,11 +275,7 @@ def _build_encoder(
 
 
 def multi_positive_info_nce(
-    text: Tensor,
-    motion: Tensor,
-    groups: Tensor,
-    scale: Tensor,
-    left_out: Tensor | None = None,
+    text: Tensor, motion: Tensor, groups: Tensor, scale: Tensor, left_out: Tensor | None = None
 ) -> Tensor:
     """Symmetric InfoNCE where every pair of one label group is positive and never negative.
 

@@ -56,13 +56,7 @@ class RhythmGuidance:
 
     @classmethod
     def of(
-        cls,
-        beats: Sequence[Tensor | None],
-        frames: int,
-        mean: Tensor,
-        std: Tensor,
-        *,
-        fps: float,
+        cls, beats: Sequence[Tensor | None], frames: int, mean: Tensor, std: Tensor, *, fps: float
     ) -> Self | None:
         """For beats in seconds [M], one row a motion; None where no row tells a tempo."""
         if frames < 2 or all(row is None or len(row) < 2 for row in beats):

@@ -114,12 +114,7 @@ def sample_batch(
             guide=known.rhythm,
         )
     return diffusion.sample(
-        model_fn,
-        noise.shape,
-        sampler=sampler,
-        num_steps=steps,
-        generator=streams,
-        x_T=noise,
+        model_fn, noise.shape, sampler=sampler, num_steps=steps, generator=streams, x_T=noise
     )
 
 
