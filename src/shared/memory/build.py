@@ -392,8 +392,15 @@ def _embedded(pieces: Sequence[Piece], space: SharedSpace) -> list[Phrase]:
     phrases: dict[int, Phrase] = {}
     for start in range(0, len(order), BATCH):
         numbers = order[start : start + BATCH]
-        made = _embed([pieces[number] for number in numbers], space)
-        phrases |= dict(zip(numbers, made, strict=True))
+        batch = [pieces[number] for number in numbers]
+        audio, mask = padded([torch.from_numpy(piece.audio) for piece in batch])
+        bodies = [torch.from_numpy(piece.body).float() for piece in batch]
+        audio_keys = space.embed_audio(audio, mask).float().cpu().numpy()
+        body = pad_sequence(bodies, batch_first=True)
+        motion_keys = space.embed_motion(body, mask).float().cpu().numpy()
+        for row, (number, piece) in enumerate(zip(numbers, batch, strict=True)):
+            keys = {"audio_key": audio_keys[row], "motion_key": motion_keys[row]}
+            phrases[number] = replace(piece.phrase, **keys)
     return [phrases[number] for number in range(len(pieces))]
 
 
@@ -405,20 +412,6 @@ def padded(sounds: Sequence[Tensor]) -> tuple[Tensor, Tensor]:
         row[: len(sound), : sound.shape[1]] = sound
     lengths = torch.tensor([sound.shape[1] for sound in sounds])
     return batch, torch.arange(longest) < lengths[:, None]
-
-
-def _embed(pieces: Sequence[Piece], space: SharedSpace) -> list[Phrase]:
-    """One batch."""
-    audio, mask = padded([torch.from_numpy(piece.audio) for piece in pieces])
-    body = pad_sequence(
-        [torch.from_numpy(piece.body).float() for piece in pieces], batch_first=True
-    )
-    audio_keys = space.embed_audio(audio, mask).float().cpu().numpy()
-    motion_keys = space.embed_motion(body, mask).float().cpu().numpy()
-    return [
-        replace(piece.phrase, audio_key=audio_key, motion_key=motion_key)
-        for piece, audio_key, motion_key in zip(pieces, audio_keys, motion_keys, strict=True)
-    ]
 
 
 # ---------------------------------------------------------------- of figures

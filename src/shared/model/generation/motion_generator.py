@@ -33,7 +33,7 @@ from ..clip.features import TextFeatures, check_embed_dims
 from ..clip.out_of_domain import OutOfDomainDetector, ScopeResult
 from ..clip.style_map import StyleMap
 from ..clip.tokenizer import TOKENIZER_FOLDER, PromptTokenizer
-from ..diffusion import GaussianDiffusion, guided
+from ..diffusion import GaussianDiffusion, ModelFn, guided
 from ..noise import few_from_noise
 from .constraint import Constraint, KnownBatch, SampleRequest, batches, make_requests
 
@@ -90,18 +90,17 @@ def sample_batch(
     }
     text = denoiser.with_adapters(text)
     null = denoiser.drop_text(text, torch.ones_like(tag, dtype=torch.bool))
-    # keys and values once a sample, not once a step
-    own, none = denoiser.text_keys_values(text), denoiser.text_keys_values(null)
-    condition = {"text": text, "tag": tag, "keys_values": own, **shared}
-    no_condition = {"text": null, "tag": no_tag, "keys_values": none, **shared}
-    model_fn = guided(denoiser, condition, no_condition, guidance_scale)
+
+    def told(network: "MotionDenoiser") -> ModelFn:
+        # keys and values once a sample, not once a step
+        own, none = network.text_keys_values(text), network.text_keys_values(null)
+        condition = {"text": text, "tag": tag, "keys_values": own, **shared}
+        no_condition = {"text": null, "tag": no_tag, "keys_values": none, **shared}
+        return guided(network, condition, no_condition, guidance_scale)
+
+    model_fn = told(denoiser)
     if first is not None:
-        own, none = first.text_keys_values(text), first.text_keys_values(null)
-        condition, no_condition = (
-            {**told, "keys_values": kept} for told, kept in ((condition, own), (no_condition, none))
-        )
-        begin, later = guided(first, condition, no_condition, guidance_scale), model_fn
-        top = diffusion.config.timesteps - 1
+        begin, later, top = told(first), model_fn, diffusion.config.timesteps - 1
         model_fn = lambda x_t, t: (begin if int(t[0]) == top else later)(x_t, t)  # noqa: E731
     noise = noise.to(device)
     if known is not None:
