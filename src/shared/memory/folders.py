@@ -130,17 +130,18 @@ def _check_fields(folder: Path, fields: dict[str, Any]) -> None:
         "trajectories": (frames, 25),
         "priors": (frames, 4),
     }
-    whole = all(tuple(fields[name].shape) == shape for name, shape in shapes.items())
-    whole &= all(len(fields[name]) == count for name in TEXTS)
-    whole &= count > 0 and fields["audio_keys"].ndim == 2
-    whole &= all(fields[name].dtype.is_floating_point for name in shapes if name not in INTEGERS)
-    whole = whole and not any(fields[name].dtype.is_floating_point for name in INTEGERS)
-    whole = whole and bool(offsets[0] == 0) and bool(offsets[-1] == frames)
-    whole = whole and bool((offsets.diff() > 0).all())
-    whole = whole and bool((song >= 0).all()) and bool((song < len(fields["songs"])).all())
     finite = ("audio_keys", "motion_keys", "start_phase", "tempo")
-    whole = whole and all(bool(fields[name].isfinite().all()) for name in finite)
-    if not whole:
+    if not (
+        count > 0
+        and fields["audio_keys"].ndim == 2
+        and all(tuple(fields[name].shape) == shape for name, shape in shapes.items())
+        and all(len(fields[name]) == count for name in TEXTS)
+        and all(fields[name].dtype.is_floating_point != (name in INTEGERS) for name in shapes)
+        and (offsets[0], offsets[-1]) == (0, frames)
+        and (offsets.diff() > 0).all()
+        and ((song >= 0) & (song < len(fields["songs"]))).all()
+        and all(fields[name].isfinite().all() for name in finite)
+    ):
         raise UserError(
             f"{folder} is damaged: its tables do not belong together; build the memory again"
         )

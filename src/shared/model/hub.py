@@ -113,42 +113,32 @@ def pull(
     repo, named = parsed(name)
     if force:
         _fetched.cache_clear()
-    where = str(cache_dir) if cache_dir is not None else None
-    return _fetched(repo, revision or named, where, local_files_only, endpoint, force)
+    return _fetched(
+        repo,
+        revision or named,
+        cache_dir=str(cache_dir) if cache_dir is not None else None,
+        local_files_only=local_files_only,
+        endpoint=endpoint,
+        force_download=force,
+    )
 
 
 @lru_cache
-def _fetched(
-    repo: str,
-    revision: str | None,
-    cache: str | None,
-    local: bool,
-    endpoint: str | None,
-    force: bool,
-) -> Path:
+def _fetched(repo: str, revision: str | None, **how: Any) -> Path:
+    """`pull`; `how` is of `snapshot_download`."""
     from huggingface_hub import get_cached_repo_tree, snapshot_download
     from huggingface_hub.errors import CachedRepoTreeNotFoundError
 
     def fetch(revision: str | None, files: Sequence[str]) -> Path:
-        with _told(repo, revision, endpoint, local):
-            return Path(
-                snapshot_download(
-                    repo,
-                    revision=revision,
-                    cache_dir=cache,
-                    local_files_only=local,
-                    endpoint=endpoint,
-                    force_download=force,
-                    allow_patterns=files,
-                    library_name=PROGRAM,
-                )
-            )
+        with _told(repo, revision, how["endpoint"], how["local_files_only"]):
+            own = {"revision": revision, "allow_patterns": files, "library_name": PROGRAM}
+            return Path(snapshot_download(repo, **own, **how))
 
     commit = (folder := fetch(revision, [CARD_FILE])).name  # small, and tells whether to go on
     shown = f"{repo}@{commit[:12]}"
     content = _content(folder, shown)
     try:
-        listed = get_cached_repo_tree(repo, revision=commit, cache_dir=cache)
+        listed = get_cached_repo_tree(repo, revision=commit, cache_dir=how["cache_dir"])
     except CachedRepoTreeNotFoundError:  # another program filled the cache, and now it is offline
         listed = []
     files = {file.path: file for file in listed if OURS.fullmatch(file.path)}
