@@ -304,7 +304,10 @@ class AudioFeatures:
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], path: str | Path) -> "AudioFeatures":
         """Check and take the features out of `arrays` that came from `path`.
-        Raises UserError: a feature is missing or has another shape."""
+
+        Raises:
+            UserError: a feature is missing or has another shape.
+        """
         rows = {"mel": MELS, "chroma": 12, "mfcc": MFCCS}
         frames = arrays["onset_strength"].size if "onset_strength" in arrays else 0
         for name in (f.name for f in fields(cls)):
@@ -319,7 +322,10 @@ class AudioFeatures:
 
 def extract_features(source: str | Path | Sound, *, chroma: Chroma = "fast") -> AudioFeatures:
     """TECH section 4.2's features of a sound, cropped to T = round(30 · seconds) frames.
-    Raises UserError: the file cannot be used (see `load_sound`)."""
+
+    Raises:
+        UserError: the file cannot be used (see `load_sound`).
+    """
     sound = source if isinstance(source, Sound) else load_sound(source)
     samples, count = sound.samples, 1 + len(sound.samples) // HOP
     mel, full_mel = np.empty((count, MELS), np.float32), np.empty((count, MELS), np.float32)

@@ -100,7 +100,10 @@ class Song:
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], path: str | Path) -> "Song":
         """The inverse of `arrays`, which came from `path`.
-        Raises UserError: something is missing or has another shape."""
+
+        Raises:
+            UserError: something is missing or has another shape.
+        """
         try:
             beats = Beats(
                 tempo=float(arrays["tempo"]),

@@ -52,7 +52,10 @@ class Sound:
 
 def load_sound(path: str | Path) -> Sound:
     """Read a whole sound file; a damaged one as far as it goes, which `notes` tells.
-    Raises UserError: missing, no sound file, shorter than 1 s, longer than 2 h, nothing but NaN."""
+
+    Raises:
+        UserError: missing, no sound file, shorter than 1 s, longer than 2 h, nothing but NaN.
+    """
     path = Path(path)
     mono, notes, loudest = _read(path)
     if loudest is not None:
@@ -89,7 +92,10 @@ def check_sound(path: str | Path) -> None:
 
 def sound_from_samples(samples: np.ndarray, sample_rate: int = SAMPLE_RATE) -> Sound:
     """A sound out of samples [S] or [S,channels] in memory, mended and resampled like a file.
-    Raises UserError: shorter than 1 s, longer than 2 h, nothing but NaN."""
+
+    Raises:
+        UserError: shorter than 1 s, longer than 2 h, nothing but NaN.
+    """
     samples = np.atleast_2d(np.asarray(samples, dtype=np.float32).T).T  # [S,channels]
     mender, mixer = Mender(), _Mixer(sample_rate)
     samples = mender.mend(samples)

@@ -56,7 +56,10 @@ def write_npz(motion: Motion, path: str | Path) -> Path:
 
 def read_npz(path: str | Path) -> Motion:
     """Read a motion that `write_npz` wrote; quaternions are normalised again.
-    Raises UserError: missing, damaged, not ours, or with arrays of another shape or NaN."""
+
+    Raises:
+        UserError: missing, damaged, not ours, or with arrays of another shape or NaN.
+    """
     path = Path(path)
     arrays = read_arrays(path, _NAMES)
     for name in _NAMES:
@@ -125,7 +128,10 @@ def write_trajectory_npz(trajectory: MotionTrajectory, path: str | Path) -> Path
 
 def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
     """Read a trajectory that `write_trajectory_npz` wrote; of a motion's file its pelvis.
-    Raises UserError: missing, damaged, not ours, of another shape, or holding NaN."""
+
+    Raises:
+        UserError: missing, damaged, not ours, of another shape, or holding NaN.
+    """
     path = Path(path)
     arrays = load_arrays(path)
     if "root_position" in arrays:
@@ -150,13 +156,19 @@ def read_trajectory_npz(path: str | Path) -> MotionTrajectory:
 
 def read_trajectory_npy(path: str | Path) -> MotionTrajectory:
     """Read a bare [T,25] array at 30 frames a second.
-    Raises UserError: missing, damaged, of another shape, or holding NaN."""
+
+    Raises:
+        UserError: missing, damaged, of another shape, or holding NaN.
+    """
     return checked_trajectory(Path(path), load_arrays(Path(path))["trajectory"], FPS)
 
 
 def load_arrays(path: Path) -> dict[str, np.ndarray]:
     """The arrays of an NPZ by name; of an NPY its one array as `trajectory`.
-    Raises UserError: missing or damaged."""
+
+    Raises:
+        UserError: missing or damaged.
+    """
     if path.suffix.lower() == ".npy":
         return {"trajectory": read_array(path)}
     return read_arrays(path)
@@ -164,7 +176,10 @@ def load_arrays(path: Path) -> dict[str, np.ndarray]:
 
 def checked_trajectory(path: Path, data: np.ndarray, fps: float) -> MotionTrajectory:
     """A trajectory of numbers read from `path`.
-    Raises UserError: no frames, another shape or type, NaN, or quaternions of zeros."""
+
+    Raises:
+        UserError: no frames, another shape or type, NaN, or quaternions of zeros.
+    """
     if data.ndim != 2 or data.shape[1] != CHANNELS or data.dtype.kind not in "fiu":
         raise UserError(f"{path}: holds {data.dtype}{list(data.shape)}, expected numbers of shape "
                         f"[T, {CHANNELS}], time first, one trajectory")  # fmt: skip

@@ -68,7 +68,11 @@ else:
 
 
 def find_blender() -> str:
-    """The program, or a Python that has it as a module. Raises UserError: there is none."""
+    """The program, or a Python that has it as a module.
+
+    Raises:
+        UserError: there is none.
+    """
     named = variable(BLENDER)
     found = which(named or "blender") or (not named and find_spec("bpy") and sys.executable)
     if not found:
@@ -82,7 +86,10 @@ def find_blender() -> str:
 
 def write_fbx(motion: Motion, path: Path, *, names: str = "canonical") -> Path:
     """Write one motion on our mannequin; returns the path.
-    Raises UserError: no Blender, or the file cannot be written."""
+
+    Raises:
+        UserError: no Blender, or the file cannot be written.
+    """
     return through_glb(lambda glb: write_glb(motion, glb, names=names), path, motion.fps)
 
 
@@ -105,7 +112,10 @@ def through_glb(write: Callable[[Path], object], path: Path, fps: float) -> Path
 @contextmanager
 def as_glb(path: Path) -> Iterator[Path]:
     """A GLB of what an FBX holds, for as long as this is open.
-    Raises UserError: no such file, no Blender, or one that Blender cannot read."""
+
+    Raises:
+        UserError: no such file, no Blender, or one that Blender cannot read.
+    """
     check_size(path)
     with TemporaryDirectory(prefix="motionsuite-") as folder:
         glb = Path(folder, f"{path.stem}.glb")

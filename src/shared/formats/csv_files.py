@@ -117,7 +117,10 @@ def write_motion_csv(motion: Motion, path: str | Path) -> Path:
 
 def read_motion_csv(path: str | Path) -> Motion:
     """Read what `write_motion_csv` wrote; positions other than the pelvis' are left aside.
-    Raises UserError: as `read_table`; no frames, or a rotation that is none."""
+
+    Raises:
+        UserError: as `read_table`; no frames, or a rotation that is none.
+    """
     path = Path(path)
     table, fps = read_table(path, MOTION_HEADER, "motion")
     if not len(table):

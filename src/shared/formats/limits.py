@@ -106,7 +106,10 @@ def check_numbers(
     remedy: str = "write it again",
 ) -> np.ndarray:
     """`check_plausible` of an array of this shape, in which a word, such as "T", is any length.
-    Raises UserError: another shape, no numbers, NaN or impossibly large ones."""
+
+    Raises:
+        UserError: another shape, no numbers, NaN or impossibly large ones.
+    """
     sizes = zip(values.shape, shape, strict=False)
     fits = values.ndim == len(shape) and all(w in (n, str(w)) for n, w in sizes)
     if not fits or values.dtype.kind not in "fiu":
@@ -118,7 +121,10 @@ def check_numbers(
 
 def read_arrays(path: Path, wanted: Iterable[str] | None = None) -> dict[str, np.ndarray]:
     """Those of the `wanted` arrays that an NPZ file holds, or all; no other member is touched.
-    Raises UserError: not an NPZ file, damaged, too large, or with pickles."""
+
+    Raises:
+        UserError: not an NPZ file, damaged, too large, or with pickles.
+    """
     with _told(path):
         return load_arrays(path, wanted)
 

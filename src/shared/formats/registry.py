@@ -85,7 +85,10 @@ def ending(name: str) -> str:
 
 def format_of(path: str | Path) -> str:
     """The format that the end of a file's name tells: `amass` of `walk.amass.npz`, else `npz`.
-    Raises UsageError: no format ends like this."""
+
+    Raises:
+        UsageError: no format ends like this.
+    """
     name = Path(path).name.lower()
     for known, end in ENDINGS.items():
         if name.endswith(f".{end}"):
@@ -165,7 +168,10 @@ def export_motion(
 
 def write_preview(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     """Write one HTML page that plays the motions side by side, offline.
-    Raises UserError: no motion, one that is empty or holds NaN, or the file cannot be written."""
+
+    Raises:
+        UserError: no motion, one that is empty or holds NaN, or the file cannot be written.
+    """
     for motion in [motions] if isinstance(motions, Motion) else motions:
         check_motion(motion, path)
     return EXPORTERS["html"](motions, path)
@@ -326,7 +332,10 @@ def write_dance_page(
     figures: Sequence[Sequence[Danced] | None] = (),
 ) -> Path:
     """One page that plays the song with its dances side by side, offline.
-    Raises UserError: a motion holds NaN, the song cannot be read, or the page cannot be written."""
+
+    Raises:
+        UserError: a motion holds NaN, the song cannot be read, or the page cannot be written.
+    """
     for motion in motions:
         check_motion(motion, path)
     titles = [motion.text for motion in motions]

@@ -93,7 +93,10 @@ def why_not_written(error: Exception) -> str | None:
 @contextmanager
 def made_folder(folder: Path) -> Iterator[None]:
     """Make a folder; afterwards what of it and its parents is new and empty goes again.
-    Raises OSError: it cannot be made."""
+
+    Raises:
+        OSError: it cannot be made.
+    """
     new = [part for part in (folder, *folder.parents) if not part.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -174,7 +177,10 @@ def same_place(one: Place, other: Place) -> bool:
 
 def inside(folder: Path, name: str) -> Path:
     """The path of a file that something in `folder` names, such as its manifest.
-    Raises UserError: the name leads out of the folder, or is a folder's."""
+
+    Raises:
+        UserError: the name leads out of the folder, or is a folder's.
+    """
     path = Path(folder) / name
     if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder)):
         raise UserError(f"{name!r} leads out of {folder}, where it is named; write the folder anew")

@@ -216,7 +216,10 @@ class SoundReader:
 
     def blocks(self, count: int) -> Iterator[np.ndarray]:
         """Yield [s,channels] float32 until the file ends or breaks; s < `count` only then.
-        Raises UserError: longer than 2 h."""
+
+        Raises:
+            UserError: longer than 2 h.
+        """
         with self._file:
             while len(samples := self._read(count)):
                 self._got += len(samples)
@@ -262,7 +265,10 @@ class SoundReader:
 
 def _cut_off(path: Path) -> bool:
     """Does the container say that bytes are missing? libsndfile keeps quiet about wav and ogg.
-    Raises UserError: the file is missing, empty or not to be read."""
+
+    Raises:
+        UserError: the file is missing, empty or not to be read.
+    """
     try:
         with path.open("rb") as stream:
             head, size = stream.read(8), path.stat().st_size

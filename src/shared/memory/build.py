@@ -162,7 +162,11 @@ class Source:
         return part
 
     def pieces(self, config: MemoryConfig) -> Iterator[Piece]:
-        """The phrases, cut at bars. Raises UserError: too many are bad."""
+        """The phrases, cut at bars.
+
+        Raises:
+            UserError: too many are bad.
+        """
         for record in self.records:
             try:
                 yield from self._cut(record, config)
@@ -170,7 +174,11 @@ class Source:
                 self.leave_out({record.id: str(error)})
 
     def leave_out(self, reasons: dict[str, str]) -> None:
-        """Phrases, with the reason of each. Raises UserError: too many are bad."""
+        """Phrases, with the reason of each.
+
+        Raises:
+            UserError: too many are bad.
+        """
         self.bad |= reasons
         if len(self.bad) > MAX_BAD_FRACTION * self.total:
             named = "; ".join(f"{name}: {why}" for name, why in islice(self.bad.items(), 3))
@@ -435,7 +443,10 @@ class TakeRow:
 
 def read_takes(table: Path, folder: Place) -> list[TakeRow]:
     """The rows of a table, their files in `folder`.
-    Raises UserError: unreadable, another column, no row, no such file, or a bad number."""
+
+    Raises:
+        UserError: unreadable, another column, no row, no such file, or a bad number.
+    """
     reader = csv.DictReader(io.StringIO(read_text(table, "a CSV file")))
     names = [name.strip().lower() for name in reader.fieldnames or ()]
     if "file" not in names or not set(names) <= set(COLUMNS):
@@ -463,7 +474,11 @@ def read_takes(table: Path, folder: Place) -> list[TakeRow]:
 
 
 def every_file(folder: Place) -> list[TakeRow]:
-    """All motion files below a folder or an address, in order. Raises UserError: there is none."""
+    """All motion files below a folder or an address, in order.
+
+    Raises:
+        UserError: there is none.
+    """
     found = [path for path in files_below(folder) if path.suffix.lower() in FOLDER_ENDINGS]
     if not found:
         raise UserError(f"{folder} holds no motion files; name a folder of dances")
@@ -474,7 +489,10 @@ def build_figures(
     rows: Sequence[TakeRow], *, progress: Progress = lambda done, total: None
 ) -> tuple[FigureMemory, dict[str, str]]:
     """The memory of some takes, and those that could not be used, with the reason.
-    Raises UserError: none can."""
+
+    Raises:
+        UserError: none can.
+    """
     takes: list[Take] = []
     left_out: dict[str, str] = {}
     for done, row in enumerate(rows, start=1):

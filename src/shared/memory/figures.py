@@ -390,7 +390,10 @@ class FigureMemory:
 
     def save(self, folder: str | Place) -> None:
         """Write it: rotations in steps of 1/4096, places of 0.2 mm, differences of frames.
-        Raises UserError: the folder or address cannot be written."""
+
+        Raises:
+            UserError: the folder or address cannot be written.
+        """
         folder = place(folder)
         packed = [_packed(take.motion) for take in self.takes]
         turns, places, contacts = (np.concatenate(parts) for parts in zip(*packed, strict=True))
@@ -413,7 +416,10 @@ class FigureMemory:
     @classmethod
     def open(cls, folder: str | Place = SHIPPED) -> Self:
         """What `save` wrote; without a folder what is shipped.
-        Raises UserError: nothing there, or damaged."""
+
+        Raises:
+            UserError: nothing there, or damaged.
+        """
         folder = place(folder)
         if not is_figure_memory(folder):
             raise UserError(f"{folder} holds no figures; make them with `memory build --figures`")

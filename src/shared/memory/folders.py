@@ -75,7 +75,10 @@ def entry_of(path: Place) -> dict[str, Any]:
 
 def read_manifest(folder: Place) -> dict[str, Any]:
     """The manifest of a memory.
-    Raises UserError: there is none, or not one that this version reads."""
+
+    Raises:
+        UserError: there is none, or not one that this version reads.
+    """
     path = folder / MANIFEST
     try:
         manifest = load_json(path)
@@ -97,7 +100,11 @@ def read_manifest(folder: Place) -> dict[str, Any]:
 
 
 def read_index(folder: Path) -> dict[str, Any]:
-    """The fields of a MemoryIndex. Raises UserError: see `MemoryIndex.open`."""
+    """The fields of a MemoryIndex.
+
+    Raises:
+        UserError: see `MemoryIndex.open`.
+    """
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
@@ -164,7 +171,10 @@ def _check(path: Path, entry: dict[str, Any]) -> None:
 
 def readable(memory: str | Place) -> Path:
     """The folder of a memory; of one at an address its copy, which is brought up to date.
-    Raises UserError: there is none at the address, it is damaged, or cannot be reached."""
+
+    Raises:
+        UserError: there is none at the address, it is damaged, or cannot be reached.
+    """
     source = place(memory)
     if isinstance(source, Path):
         return source
@@ -178,7 +188,10 @@ def readable(memory: str | Place) -> Path:
 @contextmanager
 def writable(memory: Place) -> Iterator[Path]:
     """The folder to build a memory in; of an address its copy, which is put there afterwards.
-    Raises UserError: another process builds it here, or the address cannot be written."""
+
+    Raises:
+        UserError: another process builds it here, or the address cannot be written.
+    """
     if isinstance(memory, Path):
         yield memory
         return

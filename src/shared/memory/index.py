@@ -206,7 +206,10 @@ class MemoryIndex:
 
     def banned(self, exclude_songs: Excluded | None, queries: int) -> Tensor | None:
         """[B,S] True where a query may not find a song; None where nothing is excluded.
-        Raises ValueError: not one entry a query."""
+
+        Raises:
+            ValueError: not one entry a query.
+        """
         if exclude_songs is None:
             return None
         if len(exclude_songs) != queries:
@@ -228,7 +231,10 @@ class MemoryIndex:
     @classmethod
     def open(cls, folder: str | Place) -> Self:
         """Open what `save` wrote.
-        Raises UserError: no memory there, of another version, or a file is missing or damaged."""
+
+        Raises:
+            UserError: no memory there, of another version, or a file is missing or damaged.
+        """
         return cls(**read_index(readable(folder)))
 
 
@@ -367,7 +373,10 @@ def make_table(index: MemoryIndex, key: Key) -> Any:
 
 def add_library(index: MemoryIndex, folder: Path) -> LibraryIndex:
     """Make both tables and add them to the memory in `folder`; its manifest vouches for them.
-    Raises UserError: the folder cannot be written."""
+
+    Raises:
+        UserError: the folder cannot be written.
+    """
     import faiss
 
     tables = {key: make_table(index, key) for key in SIDES}
@@ -383,7 +392,10 @@ def add_library(index: MemoryIndex, folder: Path) -> LibraryIndex:
 
 def open_index(folder: str | Place, *, library_above: int) -> MemoryIndex:
     """A memory, with the library where it is large, has tables, and faiss is installed.
-    Raises UserError: see `MemoryIndex.open`."""
+
+    Raises:
+        UserError: see `MemoryIndex.open`.
+    """
     folder = readable(folder)
     index = MemoryIndex.open(folder)
     if len(index) <= library_above or not has_tables(folder) or not library_installed():

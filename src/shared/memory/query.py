@@ -120,7 +120,10 @@ def projection(dim: int) -> Tensor:
 
 def query_bars(phase: Tensor | float | None, batch: int, num_frames: int) -> np.ndarray:
     """Phases as `retrieve` takes them → [B,T] or [B,1], float64.
-    Raises ValueError: another shape."""
+
+    Raises:
+        ValueError: another shape.
+    """
     given = torch.zeros(()) if phase is None else torch.as_tensor(phase)
     bars = given.double().numpy()
     bars = np.full((batch, 1), bars) if bars.ndim == 0 else bars

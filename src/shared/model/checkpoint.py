@@ -80,7 +80,10 @@ def of_another_version(path: Path, error: ValidationError) -> UserError:
 
 def read_card(folder: Path) -> ModelCard:
     """The card of a model folder.
-    Raises UserError: no card there, or not one this version reads."""
+
+    Raises:
+        UserError: no card there, or not one this version reads.
+    """
     path = Path(folder) / CARD_FILE
     try:
         return ModelCard.model_validate(load_json(path))
@@ -141,7 +144,10 @@ def weights_info(
 
 def check_weights(folder: Path, weights: WeightsInfo | None) -> Path:
     """The weights file of a model folder, whose card says this of it.
-    Raises UserError: it is missing, truncated, or not the one the card vouches for."""
+
+    Raises:
+        UserError: it is missing, truncated, or not the one the card vouches for.
+    """
     path = Path(folder) / WEIGHTS_FILE
     if weights is None or not path.is_file():
         raise UserError(f"{folder} holds no weights; train it, or copy {WEIGHTS_FILE} there too")
@@ -161,8 +167,11 @@ def check_weights(folder: Path, weights: WeightsInfo | None) -> Path:
 
 def read_tensors(folder: Path, card: ModelCard) -> dict[str, "Tensor"]:
     """The weights of a model folder in float32 on the CPU.
-    Raises UserError: the file is missing, truncated, not the one the card vouches for, or holds
-    numbers that are not finite."""
+
+    Raises:
+        UserError: the file is missing, truncated, not the one the card vouches for, or holds
+            numbers that are not finite.
+    """
     from safetensors import SafetensorError
     from safetensors.torch import load_file
 
@@ -190,7 +199,10 @@ def load_state(
     module: "nn.Module", tensors: Mapping[str, "Tensor"], prefix: str, folder: Path
 ) -> None:
     """Fill a module from the tensors whose names start with `prefix.`; every key must fit.
-    Raises UserError: a tensor is missing, left over, or of another shape."""
+
+    Raises:
+        UserError: a tensor is missing, left over, or of another shape.
+    """
     start = prefix + "."
     given = {name[len(start) :]: t for name, t in tensors.items() if name.startswith(start)}
     wanted = module.state_dict()
@@ -299,7 +311,10 @@ def wrong_kind(
 
 def resolve_model(name_or_folder: str | Path) -> Path:
     """The folder of a model: one that holds it, a shipped name, or `user/model` on a hub.
-    Raises UserError: none of them; an untrained profile says how to train it."""
+
+    Raises:
+        UserError: none of them; an untrained profile says how to train it.
+    """
     folder = Path(name_or_folder)
     for place in (folder, run_folder(folder)):
         if (place / CARD_FILE).is_file():
@@ -327,7 +342,10 @@ def resolve_model(name_or_folder: str | Path) -> Path:
 
 def from_hub(name: str | Path) -> Path | None:
     """The folder of a model on a hub; None where the name is not `user/model[@revision]`.
-    Raises UserError: as of `hub.pull`."""
+
+    Raises:
+        UserError: as of `hub.pull`.
+    """
     if not isinstance(name, str) or "/" not in name:
         return None
     from .hub import hub_name, pull

@@ -369,7 +369,10 @@ class GaussianDiffusion(nn.Module):
         callback: Callback | None = None,
     ) -> Tensor:
         """Draw samples [B, ...]; see `Sampler.sample`. Settings left out come from the config.
-        Raises UsageError: the sampler is unknown or the number of steps is out of range."""
+
+        Raises:
+            UsageError: the sampler is unknown or the number of steps is out of range.
+        """
         return make_sampler(self, sampler, num_steps, eta).sample(
             shape, condition, model=model, generator=generator, x_T=x_T, callback=callback
         )
@@ -585,7 +588,10 @@ def make_sampler(
     eta: float | None = None,
 ) -> Sampler:
     """The sampler of that name; what is left out comes from the diffusion's configuration.
-    Raises UsageError: the name is unknown or the number of steps is out of range."""
+
+    Raises:
+        UsageError: the name is unknown or the number of steps is out of range.
+    """
     name = name or diffusion.config.sampler
     if name not in SAMPLERS:
         raise UsageError(f"sampler {name!r} is unknown; choose one of {', '.join(SAMPLERS)}")

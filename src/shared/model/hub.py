@@ -74,7 +74,11 @@ def hub_name(name: str | Path) -> bool:
 
 
 def parsed(name: str) -> tuple[str, str | None]:
-    """Repository and revision of a name. Raises UsageError: not of that form."""
+    """Repository and revision of a name.
+
+    Raises:
+        UsageError: not of that form.
+    """
     found = NAME.fullmatch(name)
     if found is None:
         raise UsageError(
@@ -322,7 +326,10 @@ def push_to_hub(
 
 def model_files(folder: Path) -> list[str]:
     """The files of a model folder that are published, by name; checkpoints and logs are not.
-    Raises UserError: no model, or its weights are damaged."""
+
+    Raises:
+        UserError: no model, or its weights are damaged.
+    """
     check_weights(folder, _weights(folder, _content(folder, str(folder))))
     inside = [*folder.glob("*"), *folder.glob("tokenizer/*")]
     names = (path.relative_to(folder).as_posix() for path in inside if path.is_file())

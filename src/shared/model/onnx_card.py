@@ -151,7 +151,10 @@ CardT = TypeVar("CardT", bound=OnnxCard)
 
 def read_onnx_card(folder: str | Path, kind: type[CardT], model: ModelCard | None = None) -> CardT:
     """The card of an export whose graphs are whole; `model` is the model's, where it was read.
-    Raises UserError: no export there, one that this version cannot read, or a damaged graph."""
+
+    Raises:
+        UserError: no export there, one that this version cannot read, or a damaged graph.
+    """
     path = Path(folder) / ONNX_CARD
     if not path.is_file():
         named = f" --model {folder}" if _could_be_exported(folder) else ""

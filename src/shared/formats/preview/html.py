@@ -50,7 +50,10 @@ _SIDES = {"left": 1, "right": -1, "centre": 0}
 
 def write_html(motions: Sequence[Motion] | Motion, path: str | Path) -> Path:
     """Write one self-contained page; prompts are the captions and cannot act as markup.
-    Raises UserError: no motion, or the file cannot be written."""
+
+    Raises:
+        UserError: no motion, or the file cannot be written.
+    """
     shown = [motions] if isinstance(motions, Motion) else list(motions)
     if not shown:
         raise UserError(f"cannot write {path}: there is no motion to show; give one")
@@ -164,7 +167,10 @@ def begin_song_uri(path: Path, seconds: float) -> None:
 
 def song_uri(path: str | Path, seconds: float) -> str:
     """The first `seconds` of a song as a `data:` URI that browsers play.
-    Raises UserError: the file is missing or no sound that can be read."""
+
+    Raises:
+        UserError: the file is missing or no sound that can be read.
+    """
     begun = _begun.pop((Path(path), seconds), None)
     return _song_uri(Path(path), seconds) if begun is None else begun.result()
 

@@ -165,8 +165,11 @@ class _SkeletonReader:
 
 def read_asf(path: str | Path) -> AsfSkeleton:
     """Read an ASF skeleton.
-    Raises UserError: missing, too large, not ASF, or with a faulty or unconnected bone; names the
-    file and the line."""
+
+    Raises:
+        UserError: missing, too large, not ASF, or with a faulty or unconnected bone; names the
+            file and the line.
+    """
     path = Path(path)
     text = limits.read_bytes(path, MAX_ASF_BYTES).decode("latin-1")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
@@ -327,7 +330,10 @@ def read_amc(
 
 def find_skeleton(path: Path) -> Path:
     """The ASF file that belongs to an AMC file, by name.
-    Raises UserError: none lies beside it, or several that could be meant."""
+
+    Raises:
+        UserError: none lies beside it, or several that could be meant.
+    """
     found = sorted(p for p in path.parent.iterdir() if p.suffix.lower() == ".asf")
     named = [p for p in found if path.stem.lower().startswith(p.stem.lower())]
     best = sorted(named, key=lambda p: -len(p.stem))[:1] or found

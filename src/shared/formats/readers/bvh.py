@@ -180,7 +180,10 @@ class Head:
 
 def read_head(stream: IO[bytes]) -> Head:
     """Hierarchy and timing.
-    Raises BvhError: not BVH, cut off, or with impossible values; carries the line."""
+
+    Raises:
+        BvhError: not BVH, cut off, or with impossible values; carries the line.
+    """
     data = stream.read(HEAD_BYTES)
     if b"\0" in data:
         raise BvhError("is binary, not BVH text; export it as BVH again")
@@ -401,8 +404,11 @@ class BvhClip:
 
 def read_bvh(path: str | Path) -> BvhClip:
     """Read a BVH file of any channel order, indentation and line ends.
-    Raises UserError: missing, too large, not BVH, truncated, or with impossible values; names the
-    file and, where there is one, the line."""
+
+    Raises:
+        UserError: missing, too large, not BVH, truncated, or with impossible values; names the
+            file and, where there is one, the line.
+    """
     path = Path(path)
     limits.check_size(path)
     with _opened(path) as stream:

@@ -114,7 +114,9 @@ class GlbFile:
 
     def array(self, index: int) -> np.ndarray:
         """The values [N,width] of an accessor as float64.
-        Raises GlbError: sparse or compressed data, data in another file, or data that is not there.
+
+        Raises:
+            GlbError: sparse or compressed data, data in another file, or data that is not there.
         """
         accessor = self.document["accessors"][index]
         if "sparse" in accessor or "bufferView" not in accessor:
@@ -328,7 +330,10 @@ class GlbSkeleton:
 
 def read_glb_skeleton(path: str | Path) -> GlbSkeleton:
     """The skeleton of a GLB file, at rest.
-    Raises UserError: missing, damaged, without joints, or with joints scaled unevenly."""
+
+    Raises:
+        UserError: missing, damaged, without joints, or with joints scaled unevenly.
+    """
     with _opened(Path(path)) as file:
         return _skeleton(file)
 

@@ -33,7 +33,10 @@ SPREAD = 0.25  # of a bone's length over time, relative: more, and they are no p
 
 def read_humanml(path: str | Path, *, fps: float | None = None) -> RigClip:
     """Read joint positions or feature vectors and fit rotations to them.
-    Raises UserError: missing, damaged, of another shape, with NaN, or normalised vectors."""
+
+    Raises:
+        UserError: missing, damaged, of another shape, with NaN, or normalised vectors.
+    """
     path = Path(path)
     array = read_array(path)
     shapes = ((NUM_JOINTS, 3), (FEATURES,))

@@ -33,7 +33,10 @@ def width(rows: slice) -> int:
 
 def with_phase_rows(condition: Tensor) -> Tensor:
     """[B, 163 or 167, T] -> [B, 167, T]; phases left out are unknown, which is zero.
-    Raises ValueError: another number of rows."""
+
+    Raises:
+        ValueError: another number of rows.
+    """
     rows = condition.shape[1]
     if rows == CONDITION_ROWS:
         return condition

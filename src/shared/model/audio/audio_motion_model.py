@@ -145,7 +145,10 @@ class AudioMotionModel(nn.Module):
         cls, name_or_folder: str | Path, *, device: torch.device | str = "cpu"
     ) -> Self:
         """A model by the name of a shipped one, or from a folder, in eval mode.
-        Raises UserError: no such model, another kind, or damaged or unfitting weights."""
+
+        Raises:
+            UserError: no such model, another kind, or damaged or unfitting weights.
+        """
         folder = resolve_model(name_or_folder)
         card = read_card(folder)
         if card.kind != KIND or card.audio_network is None:

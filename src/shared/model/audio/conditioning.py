@@ -244,7 +244,10 @@ class MemoryJoin(nn.Module):
 
     def forward(self, condition: Tensor, memory: MemoryCondition) -> Remembered:
         """Of a condition [B, 167, T]; priors of the same T.
-        Raises ValueError: the memory is of another length or batch."""
+
+        Raises:
+            ValueError: the memory is of another length or batch.
+        """
         wanted = (len(condition), PRIORS, condition.shape[-1])
         if memory.priors.shape != wanted:
             raise ValueError(f"prior curves {list(memory.priors.shape)} are not {list(wanted)}")

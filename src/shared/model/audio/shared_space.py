@@ -104,7 +104,10 @@ class AudioTower(nn.Module):
 
     def forward(self, condition: Tensor, mask: Tensor | None = None) -> Tensor:
         """Condition [B, C, T], mask [B, T] bool (True = real) or None -> [B, D] unit-norm.
-        Raises ValueError: another number of rows."""
+
+        Raises:
+            ValueError: another number of rows.
+        """
         return self.embed(self.standardise(condition), mask)
 
     def embed(self, rows: Tensor, mask: Tensor | None = None) -> Tensor:
@@ -220,7 +223,10 @@ class SharedSpace(nn.Module):
         self, captions: Sequence[str], tower: TextTower, tokenizer: PromptTokenizer
     ) -> Tensor:
         """Captions through a generator's text tower -> [N, D] unit-norm, on the CPU.
-        Raises UserError: it is another text tower than the motion tower learned with."""
+
+        Raises:
+            UserError: it is another text tower than the motion tower learned with.
+        """
         if tower_hash(tower) != self.card.text_tower:
             raise UserError(
                 f"{self.card.name or 'this shared space'} and the text tower were not trained"
@@ -243,7 +249,10 @@ class SharedSpace(nn.Module):
         cls, name_or_folder: str | Path, *, device: torch.device | str = "cpu"
     ) -> Self:
         """A space by the name of a shipped one, or from a folder, in eval mode.
-        Raises UserError: no such model, another kind, or damaged or unfitting weights."""
+
+        Raises:
+            UserError: no such model, another kind, or damaged or unfitting weights.
+        """
         folder = resolve_model(name_or_folder)
         card = read_card(folder)
         if card.kind != KIND or card.audio_tower is None:

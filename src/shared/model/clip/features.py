@@ -55,7 +55,11 @@ def null_features(pooled: Tensor, token: Tensor, batch_size: int, num_tokens: in
 
 
 def check_embed_dims(text_dim: int, denoiser_dim: int, where: str) -> None:
-    """TEXT's constraint, caught at load. Raises UserError: naming both numbers."""
+    """TEXT's constraint, caught at load.
+
+    Raises:
+        UserError: naming both numbers.
+    """
     if text_dim != denoiser_dim:
         raise UserError(
             f"embed-dim mismatch: {where} gives text embeddings of {text_dim}, the denoiser takes"

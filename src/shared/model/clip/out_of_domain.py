@@ -391,7 +391,11 @@ class OutOfDomainDetector:
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
-        """Read a scope; None where the folder has none. Raises UserError: the files are damaged."""
+        """Read a scope; None where the folder has none.
+
+        Raises:
+            UserError: the files are damaged.
+        """
         from safetensors import SafetensorError
         from safetensors.numpy import load_file
 

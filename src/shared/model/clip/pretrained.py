@@ -64,7 +64,10 @@ class ClipBundle:
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self:
         """Read what `save_pretrained` wrote; the towers come in eval mode.
-        Raises UserError: no such folder, another kind of model, damaged or wrong weights."""
+
+        Raises:
+            UserError: no such folder, another kind of model, damaged or wrong weights.
+        """
         folder = Path(folder)
         card = read_card(folder)
         if card.kind != KIND:
@@ -85,7 +88,10 @@ def load_text_tower(
     name_or_folder: str | Path, embed_dim: int
 ) -> tuple[TextTower, PromptTokenizer]:
     """The frozen text tower of a CLIP folder or of a generator, for a denoiser of `embed_dim`.
-    Raises UserError: the two widths differ, or there is no such folder, model or tower."""
+
+    Raises:
+        UserError: the two widths differ, or there is no such folder, model or tower.
+    """
     folder = resolve_model(name_or_folder)
     card = read_card(folder)
     if card.kind not in TOWER_OF:

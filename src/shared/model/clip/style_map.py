@@ -71,7 +71,11 @@ class StyleMap:
 
     @classmethod
     def from_pretrained(cls, folder: str | Path) -> Self | None:
-        """Read a map; None where the folder has none. Raises UserError: the file is damaged."""
+        """Read a map; None where the folder has none.
+
+        Raises:
+            UserError: the file is damaged.
+        """
         from safetensors import SafetensorError
         from safetensors.numpy import load_file
 

@@ -99,8 +99,11 @@ class PromptTokenizer:
     @classmethod
     def train(cls, captions: Iterable[str], vocab_size: int, *, max_tokens: int = 48) -> Self:
         """A unigram SentencePiece model of the captions, the same for the same captions.
-        Raises UserError: there are no captions, or `vocab_size` has no room for the 256 bytes and
-        the characters."""
+
+        Raises:
+            UserError: there are no captions, or `vocab_size` has no room for the 256 bytes and
+                the characters.
+        """
         from sentencepiece import SentencePieceTrainer
 
         corpus = sorted({caption.strip() for caption in captions} - {""})
@@ -134,7 +137,10 @@ class PromptTokenizer:
     @classmethod
     def from_pretrained(cls, name: str | Path, *, max_tokens: int = 48) -> Self:
         """Read a folder that `save_pretrained` wrote, or a folder or hub name of transformers.
-        Raises UserError: nothing readable there."""
+
+        Raises:
+            UserError: nothing readable there.
+        """
         meta_file = Path(name) / META_FILE
         if (Path(name).parent / "config.json").is_file() and not Path(name).exists():
             raise UserError(f"{name} is missing; copy the model folder again")

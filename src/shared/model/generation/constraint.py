@@ -236,8 +236,11 @@ def make_requests(
     fps: float,
 ) -> list[SampleRequest]:
     """Requests in prompt-major order.
-    Raises UserError: no or empty prompts, lists of unequal length, an unknown tag, a length that is
-    no number or too short, a negative seed."""
+
+    Raises:
+        UserError: no or empty prompts, lists of unequal length, an unknown tag, a length that is
+            no number or too short, a negative seed.
+    """
     if isinstance(prompts, str):
         raise UserError("prompts is a string; give a list of prompts, e.g. ['a person walks']")
     if not prompts:

@@ -376,7 +376,10 @@ class TextToMotion:
 
     def encode_prompts(self, prompts: Sequence[str]) -> TextFeatures:
         """What the frozen text tower makes of the prompts; the last few lists are remembered.
-        Raises UserError: a prompt is empty."""
+
+        Raises:
+            UserError: a prompt is empty.
+        """
         key = tuple(prompts)
         if key not in self._encoded:
             with idle_threads(), torch.inference_mode():
