@@ -76,6 +76,18 @@ def units(vectors: np.ndarray) -> np.ndarray:
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-9))
 
 
+def swing(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:
+    """Smallest rotations [T,3,3] that turn a direction [3] into others [T,3], all of length 1."""
+    cross, cos = np.cross(rest, seen), seen @ rest
+    k = np.zeros((len(seen), 3, 3))
+    k[:, 0, 1], k[:, 0, 2], k[:, 1, 2] = -cross[:, 2], cross[:, 1], -cross[:, 0]
+    k -= np.swapaxes(k, -1, -2)
+    result = np.eye(3) + k + k @ k / np.maximum(1 + cos, 1e-9)[:, None, None]
+    axis = units(np.cross(rest, np.eye(3)[np.argmin(np.abs(rest))]))
+    half = 2 * np.outer(axis, axis) - np.eye(3)  # opposite: half a turn about any axis across
+    return np.where((cos < -0.999999)[:, None, None], half, result)
+
+
 def rest_positions(parents: Sequence[int], offsets: np.ndarray) -> np.ndarray:
     """Places of the joints at rest [N,3] float64, the root at its own offset; offsets [N,3]."""
     places = offsets.astype(np.float64)

@@ -9,10 +9,11 @@ none. Legend: T frames, N source joints.
 """
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...errors import UsageError
 from ...formats.readers.humanml import BENDS, LEFT, UP
-from ...formats.rig import SourceClip, rest_positions, units
+from ...formats.rig import SourceClip, rest_positions, swing, units
 from ...motion.skeleton import JOINT_INDEX, JOINT_NAMES, PARENTS, canonical_skeleton
 from .mapping import SkeletonMapping
 
@@ -59,11 +60,12 @@ def upright(axis: str) -> np.ndarray:
     +Z goes onto +Y by a quarter turn about X, so that what faced -Y faces +Z.
     """
     up = axis_vector(axis)
-    if abs(up[1]) > 0.5:
-        return np.eye(3) if up[1] > 0 else np.diag([1.0, -1.0, -1.0])
-    cross = np.cross(up, [0.0, 1.0, 0.0])
-    k = np.array([[0, -cross[2], cross[1]], [cross[2], 0, -cross[0]], [-cross[1], cross[0], 0]])
-    return np.asarray(np.eye(3) + k + k @ k)
+    return np.diag([1.0, -1.0, -1.0]) if up[1] < 0 else aligned(up, UP)
+
+
+def aligned(start: np.ndarray, end: np.ndarray) -> np.ndarray:
+    """Smallest rotation [3,3] that turns direction `start` [3] into direction `end` [3]."""
+    return np.asarray(swing(units(start), units(end)[None])[0])
 
 
 def detect_up(clip: SourceClip, mapping: SkeletonMapping) -> tuple[str, bool]:
@@ -160,7 +162,7 @@ def calibrated_axes(
                 axes = found[above]
             if axes is None and bone is not None:
                 relative = look.relative(ours, above, found[above])
-                axes = _untwisted(relative, _first(bone, rest), rest)
+                axes = _untwisted(relative, aligned(bone, rest), rest)
         if axes is None:
             axes = np.eye(3)
         found[ours] = _snapped(axes) if bone is None or np.abs(bone).max() > ALIKE else axes
@@ -253,17 +255,6 @@ def _snapped(axes: np.ndarray) -> np.ndarray:
     return result if np.linalg.det(result) > 0 else axes
 
 
-def _first(bone: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """Any rotation [3,3] that turns the direction `bone` onto `rest`."""
-    sides = []
-    for vector in (rest, bone):
-        x = vector / np.linalg.norm(vector)
-        y = np.cross(x, np.eye(3)[np.argmin(np.abs(x))])
-        y /= np.linalg.norm(y)
-        sides.append(np.stack([x, y, np.cross(x, y)]))
-    return np.asarray(sides[0].T @ sides[1])
-
-
 def _untwisted(relative: np.ndarray, first: np.ndarray, rest: np.ndarray) -> np.ndarray:
     """`first`, turned about the bone so that the mean twist against the parent is none.
 
@@ -271,7 +262,7 @@ def _untwisted(relative: np.ndarray, first: np.ndarray, rest: np.ndarray) -> np.
         relative: the joint's rotation against its parent in our axes [T,3,3].
         rest: the bone in the T-pose [3].
     """
-    axis = rest / np.linalg.norm(rest)
+    axis = units(rest)
     local = relative @ first.T
     # Twice the quaternion's w and its part along the axis, up to one factor per frame: their
     # angle is the twist (swing–twist), their length its weight (none at half a turn of swing).
@@ -281,10 +272,7 @@ def _untwisted(relative: np.ndarray, first: np.ndarray, rest: np.ndarray) -> np.
     twist = 2 * np.arctan2(skew @ axis, w)
     weight = w**2 + (skew @ axis) ** 2
     angle = np.arctan2((weight * np.sin(twist)).sum(), (weight * np.cos(twist)).sum())
-    x, y, z = axis
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
-    return np.asarray(turn @ first)
+    return np.asarray(Rotation.from_rotvec(angle * axis).as_matrix() @ first)
 
 
 def _mean_rotation(rotations: np.ndarray) -> np.ndarray:

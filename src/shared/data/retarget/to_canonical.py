@@ -28,7 +28,7 @@ from ...motion.skeleton import (
     canonical_skeleton,
 )
 from ...tensors import torch
-from .autodetection import calibrated_axes, joint_indices, rest_frame, upright
+from .autodetection import aligned, calibrated_axes, joint_indices, rest_frame, upright
 from .mapping import SkeletonMapping
 
 # The child whose bone a joint aims; the pelvis and the chest carry several bones and aim none.
@@ -44,18 +44,6 @@ _AIM: dict[str, str] = {
 
 # Joints at the end of a chain keep the angle to the bone before them that they have at rest.
 _CARRIED = {"l_wrist": "l_elbow", "r_wrist": "r_elbow"}
-
-
-def _align(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Smallest rotation [3,3] that turns direction `start` into direction `end`."""
-    a, b = start / np.linalg.norm(start), end / np.linalg.norm(end)
-    v, c = np.cross(a, b), float(a @ b)
-    if c < -0.999999:  # opposite: half a turn about any axis across
-        axis = np.cross(a, np.eye(3)[np.argmin(np.abs(a))])
-        axis /= np.linalg.norm(axis)
-        return np.asarray(2 * np.outer(axis, axis) - np.eye(3))
-    k = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
-    return np.asarray(np.eye(3) + k + k @ k / (1 + c))
 
 
 def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np.ndarray]:
@@ -74,7 +62,7 @@ def rest_corrections(clip: SourceClip, mapping: SkeletonMapping) -> dict[str, np
         if child in mapping.joints:
             bone = axes @ _bone(clip, index[ours], index[child])
             if np.linalg.norm(bone) > 1e-6:
-                turn = _align(bone, offsets[JOINT_INDEX[child]])
+                turn = aligned(bone, offsets[JOINT_INDEX[child]])
         elif ours in _CARRIED:
             turn = turns.get(_CARRIED[ours], turn)
         turns[ours] = turn

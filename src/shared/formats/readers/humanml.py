@@ -19,11 +19,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from ...errors import UserError
 from ...motion.skeleton import JOINT_INDEX, NUM_JOINTS, PARENTS, canonical_skeleton
 from ..limits import check_plausible, read_array
-from ..rig import RigClip, canonical_rig, rooted_clip, units
+from ..rig import RigClip, canonical_rig, rooted_clip, swing, units
 
 FPS = 20.0
 FEATURES = 263
@@ -96,7 +97,7 @@ def clip_of_positions(positions: np.ndarray, fps: float) -> RigClip:
             world[:, joint] = _fit(rest[children], bones[:, children])
         elif children:
             aimed = np.einsum("tji,tj->ti", above, bones[:, children[0]])
-            world[:, joint] = above @ _swing(rest[children[0]], aimed)
+            world[:, joint] = above @ swing(rest[children[0]], aimed)
         else:
             world[:, joint] = above
         if joint in limbs:
@@ -117,19 +118,6 @@ def _fit(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:
     return np.asarray(u @ v)
 
 
-def _swing(rest: np.ndarray, seen: np.ndarray) -> np.ndarray:
-    """Smallest rotations [T,3,3] that turn direction [3] into [T,3]."""
-    cross, cos = np.cross(rest, seen), seen @ rest
-    k = np.zeros((len(seen), 3, 3))
-    k[:, 0, 1], k[:, 0, 2], k[:, 1, 2] = -cross[:, 2], cross[:, 1], -cross[:, 0]
-    k -= np.swapaxes(k, -1, -2)
-    result = np.eye(3) + k + k @ k / np.maximum(1 + cos, 1e-9)[:, None, None]
-    axis = np.cross(rest, np.eye(3)[np.argmin(np.abs(rest))])
-    axis /= np.linalg.norm(axis)
-    half = 2 * np.outer(axis, axis) - np.eye(3)  # opposite: half a turn about any axis across
-    return np.where((cos < -0.999999)[:, None, None], half, result)
-
-
 def _twist(bone: np.ndarray, hinge: np.ndarray, seen: np.ndarray) -> np.ndarray:
     """Rotations [T,3,3] about a bone [3] that turn its hinge [3] to the bend's normals [T,3].
 
@@ -138,7 +126,4 @@ def _twist(bone: np.ndarray, hinge: np.ndarray, seen: np.ndarray) -> np.ndarray:
     angle = np.arctan2(seen @ np.cross(bone, hinge), seen @ hinge)
     part = np.clip((np.linalg.norm(seen, axis=-1) - BENT[0]) / (BENT[1] - BENT[0]), 0.0, 1.0)
     angle = angle * part * part * (3 - 2 * part)
-    x, y, z = bone
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    sin, cos = np.sin(angle)[:, None, None], np.cos(angle)[:, None, None]
-    return np.asarray(np.eye(3) + sin * cross + (1 - cos) * cross @ cross)
+    return np.asarray(Rotation.from_rotvec(angle[:, None] * bone).as_matrix())
