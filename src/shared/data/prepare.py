@@ -138,7 +138,12 @@ def prepare(
     moved = _no_longer_trained_on(out, records)
     lines = "".join(json.dumps(asdict(r), ensure_ascii=False) + "\n" for r in records)
     write_text(out / "clips.jsonl", lines)
-    write_json(out / "captions.json", _group_captions(records, book, seed))
+    labels_of = {record.group: record.labels for record in records if record.labels}
+    worded = {
+        group: book.captions(labels, num=CAPTIONS_PER_GROUP, seed=seed)
+        for group, labels in labels_of.items()
+    }
+    write_json(out / "captions.json", worded)
     _write_statistics(out, records)
     _remove_stale_shards(out, jobs)
     report = _report(records, skipped) | {"unmatched_captions": _unmatched(sources)}
@@ -374,16 +379,6 @@ def _no_longer_trained_on(out: Place, records: list[ClipRecord]) -> list[str]:
     except (OSError, ValueError, LookupError, TypeError):
         return []  # damaged: it is written anew
     return sorted(r.id for r in records if r.id in trained and r.split != "train")
-
-
-def _group_captions(
-    records: list[ClipRecord], book: CaptionBook, seed: int
-) -> dict[str, dict[str, list[str]]]:
-    labels_of = {record.group: record.labels for record in records if record.labels}
-    return {
-        group: book.captions(labels, num=CAPTIONS_PER_GROUP, seed=seed)
-        for group, labels in sorted(labels_of.items())
-    }
 
 
 def _write_statistics(out: Place, records: list[ClipRecord]) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, field_validator
+from pydantic import BaseModel
 
 from ..config_schema import Provenance
 from ..errors import UsageError, UserError
@@ -22,7 +22,7 @@ from ..formats.readers.acclaim import find_skeleton
 from ..formats.readers.bvh import check_head
 from ..io.storage import Address, Place, fetched, version_of
 from ..motion.motion import Motion
-from .captions.schema import Labels
+from .captions.schema import Labels, Pattern
 from .captions.tables import Piece, Table, match_captions, read_captions, without_ending
 from .retarget.mapping import SkeletonMapping, load_mappings, load_table, words
 from .retarget.read_motion import FOLDER_ENDINGS, fit, open_recording
@@ -31,17 +31,8 @@ from .synthetic.clips import SyntheticSpec, generate_clip, sample_specs
 
 
 class _Rule(BaseModel, frozen=True, extra="forbid"):
-    pattern: str
+    pattern: Pattern
     labels: Labels = {}
-
-    @field_validator("pattern")
-    @classmethod
-    def _compiles(cls, pattern: str) -> str:
-        try:
-            re.compile(pattern)
-        except re.error as error:
-            raise ValueError(f"{pattern!r} is not a regular expression: {error}") from None
-        return pattern
 
 
 class FileRule(_Rule):

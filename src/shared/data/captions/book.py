@@ -220,15 +220,14 @@ def drop_words(caption: str, share: float, rng: np.random.Generator) -> str:
     """
     if share <= 0:
         return caption
-    joint = _between_words(caption)
-    words = caption.split() if joint else list(caption)
+    joint, words = _words(caption)
     kept = [word for word, draw in zip(words, rng.random(len(words)), strict=True) if draw >= share]
     shortened = joint.join(kept)
     return shortened if shortened.strip() else caption
 
 
-def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, most: int = 3) -> str:
-    """The caption with up to `most` made-up words in it, as a stand-in for words never seen.
+def insert_babble(caption: str, letters_of: str, rng: np.random.Generator) -> str:
+    """The caption with up to three made-up words in it, as a stand-in for words never seen.
 
     In text without spaces a made-up word may be one character, and half of its characters are
     drawn from all ideographs: a small tokenizer does not know most of them, and the tower has to
@@ -237,14 +236,12 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
     Args:
         letters_of: a text of the same language, whose letters the words are drawn from.
         rng: consumed a varying number of times.
-        most: words to insert, at most.
     """
-    joint = _between_words(caption)
-    words = caption.split() if joint else list(caption)
+    joint, words = _words(caption)
     letters = [letter for letter in letters_of if letter.isalpha()]
     if not letters:
         return caption
-    for _ in range(int(rng.integers(1, most + 1))):
+    for _ in range(int(rng.integers(1, 4))):
         length = int(rng.integers(2, 9) if joint else rng.integers(1, 5))
         word = "".join(letters[index] for index in rng.integers(len(letters), size=length))
         if not joint:
@@ -261,30 +258,31 @@ def insert_babble(caption: str, letters_of: str, rng: np.random.Generator, *, mo
 
 def insert_word(caption: str, of: str, rng: np.random.Generator) -> str:
     """The caption with a word of another text in it, or, of a text without spaces, two letters."""
-    joint = _between_words(caption)
-    words, others = caption.split() if joint else list(caption), of.split()
-    if not _between_words(of):
+    (joint, words), (apart, others) = _words(caption), _words(of)
+    if not apart:
         others = [of[at : at + 2] for at in range(max(1, len(of) - 1))]
     words.insert(int(rng.integers(len(words) + 1)), others[int(rng.integers(len(others)))])
     return joint.join(words)
 
 
-def piece_of(caption: str, following: str, rng: np.random.Generator, *, most: int = 6) -> str:
-    """Up to `most` words of the caption that follow each other, or, in half of the cases, of its
+def piece_of(caption: str, following: str, rng: np.random.Generator) -> str:
+    """Up to six words of the caption that follow each other, or, in half of the cases, of its
     end and the beginning of another: what parting a sentence asks about. Of text without spaces
     twice as many letters."""
-    joint = _between_words(caption)
-    words, more = (text.split() if joint else list(text) for text in (caption, following))
+    joint, words = _words(caption)
+    more = following.split() if joint else list(following)
     start = int(rng.integers(len(words)))
-    length = int(rng.integers(1, (most if joint else 2 * most) + 1))
+    length = int(rng.integers(1, 7 if joint else 13))
     words += more if rng.random() < 0.5 else []
     piece = joint.join(words[start : start + length])
     return piece if any(letter.isalnum() for letter in piece) else caption
 
 
-def _between_words(text: str) -> str:
-    """A space, or nothing in scripts without spaces."""
-    return "" if any(ord(letter) >= EAST_ASIAN for letter in text) else " "
+def _words(text: str) -> tuple[str, list[str]]:
+    """What stands between the words of a text, and these; letters in scripts without spaces."""
+    if any(ord(letter) >= EAST_ASIAN for letter in text):
+        return "", list(text)
+    return " ", text.split()
 
 
 def _caption_files(path: Path) -> list[Path]:

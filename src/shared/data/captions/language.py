@@ -95,7 +95,10 @@ class CaptionLanguage:
         self.code = content.language
         self.mirror = TextMirror(content.mirror, content.spaces)
         self._slots = {
-            name: self._with_mirrored(_laid_over(content.slots, action.slots))
+            name: self._with_mirrored(
+                content.slots
+                | {slot: content.slots.get(slot, {}) | own for slot, own in action.slots.items()}
+            )
             for name, action in content.actions.items()
         }
         self._plan = lru_cache(maxsize=4096)(self._make_plan)
@@ -333,10 +336,6 @@ def spoken_labels(labels: Labels) -> Labels:
     """Without what nobody says: once, at normal speed, by a right angle."""
     silent = (("count", "1"), ("speed", "normal"), ("angle", "90"))
     return {key: str(value) for key, value in labels.items() if (key, str(value)) not in silent}
-
-
-def _laid_over(general: SlotTables, own: SlotTables) -> SlotTables:
-    return {name: general.get(name, {}) | own.get(name, {}) for name in general.keys() | own.keys()}
 
 
 def _allowed(phrase: Phrase, labels: Labels) -> bool:

@@ -10,9 +10,9 @@ import unicodedata
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Self, TypeVar
+from typing import Annotated, Any, Self, TypeVar
 
-from pydantic import ConfigDict, Field, ValidationError, field_validator, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, ValidationError, model_validator
 
 from ...config_schema import Config
 from ...errors import UserError, first_fault
@@ -134,12 +134,15 @@ class _Section(Config):
     model_config = ConfigDict(coerce_numbers_to_str=True)
 
 
-def compiled(pattern: str) -> re.Pattern[str]:
-    """A regular expression of a caption file; raises ValueError where it is none."""
+def _compiles(pattern: str) -> str:
     try:
-        return re.compile(pattern)
+        re.compile(pattern)
     except re.error as error:
         raise ValueError(f"{pattern!r} is no regular expression: {error}") from error
+    return pattern
+
+
+Pattern = Annotated[str, AfterValidator(_compiles)]
 
 
 class Frame(_Section):
@@ -159,14 +162,7 @@ class Tense(_Section):
     """
 
     of: str
-    steps: list[list[tuple[str, str]]] = Field(min_length=1)
-
-    @field_validator("steps")
-    @classmethod
-    def _compile(cls, steps: list[list[tuple[str, str]]]) -> list[list[tuple[str, str]]]:
-        for pattern, _ in (rule for step in steps for rule in step):
-            compiled(pattern)
-        return steps
+    steps: list[list[tuple[Pattern, str]]] = Field(min_length=1)
 
     def __call__(self, verb: str) -> str:
         """The form of a verb, both as templates."""
@@ -211,14 +207,7 @@ class MirrorTable(_Section):
 
     pairs: list[tuple[str, str]] = Field(min_length=1)
     one_way: list[tuple[str, str]] = Field([])
-    keep: list[str] = Field([])
-
-    @field_validator("keep")
-    @classmethod
-    def _compiles(cls, keep: list[str]) -> list[str]:
-        for pattern in keep:
-            compiled(pattern)
-        return keep
+    keep: list[Pattern] = Field([])
 
 
 class LanguageFile(_Section):

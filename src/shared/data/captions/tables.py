@@ -236,19 +236,15 @@ def _by_path(row: str, files: Sequence[_File]) -> list[_File]:
     ]
 
 
-def _delimiter(text: str) -> str:
-    """What parts the cells of a table: whatever ends the first one."""
-    found = _FIRST_CELL.match(text)
-    return found[1] if found else ","
-
-
 def _rows(path: Path) -> list[_Row]:
     text = read_text(path, "a CSV, TSV or JSON file of captions, in UTF-8")
     ending = path.suffix.lower()
     if ending == ".json":
         return _json_rows(path, text)
     if ending in (".csv", ".tsv"):
-        return _table_rows(path, text, "\t" if ending == ".tsv" else _delimiter(text))
+        first = _FIRST_CELL.match(text)
+        delimiter = "\t" if ending == ".tsv" else first[1] if first else ","
+        return _table_rows(path, text, delimiter)
     raise UserError(f"captions {path}: unknown ending {ending!r}; use .csv, .tsv or .json")
 
 

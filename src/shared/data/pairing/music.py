@@ -130,15 +130,13 @@ class FolderMusic:
         for path in found:
             by_hash.setdefault(sha256_file(path), path)
         splits = assign_alike(list(by_hash), self.seed)
-        return [
-            SongEntry(
-                f"{_slug(path.stem)}-{digest[:8]}",
-                splits[digest],
-                f"{digest}:{self.meter}",
-                relative_name(path, self.root),
-            )
-            for digest, path in by_hash.items()
-        ]
+        entries = []
+        for digest, path in by_hash.items():
+            slug = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-")[:40] or "song"
+            name, fingerprint = f"{slug}-{digest[:8]}", f"{digest}:{self.meter}"
+            file = relative_name(path, self.root)
+            entries.append(SongEntry(name, splits[digest], fingerprint, file))
+        return entries
 
     def read(self, entry: SongEntry) -> Music:
         """One song; raises UserError where it cannot be used."""
@@ -150,10 +148,6 @@ class FolderMusic:
 
 
 MusicSource = SyntheticMusic | FolderMusic
-
-
-def _slug(name: str) -> str:
-    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:40] or "song"
 
 
 def feature_arrays(features: AudioFeatures) -> dict[str, np.ndarray]:

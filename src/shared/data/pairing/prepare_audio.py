@@ -50,6 +50,7 @@ from .phrase_motion import KNOT_SECONDS, SPARE, add_body, describe
 
 WINDOW_FRAMES = 120  # TECH §6.1's target length
 STD_FLOOR = 1e-4  # a row that does not vary is not blown up
+WHEN = ("before", "after", "chance")  # alignment: as recorded, warped, and by chance
 RATE_EDGES = np.round(np.arange(0.85, 1.151, 0.05), 2)
 
 Entry = dict[str, Any]
@@ -142,7 +143,7 @@ def _alignment(entries: Sequence[Entry]) -> dict[str, dict[str, float]]:
             )
             for way in ("motion_to_music", "music_to_motion")
         }
-        for when in ("before", "after", "chance")
+        for when in WHEN
     }
 
 
@@ -353,11 +354,7 @@ def _entry(name: str, record: PhraseRecord, pair: PhrasePair, start: int) -> dic
             "matched": pair.matched,
             "coverage": round(pair.coverage, 4),
             "motion_beats": len(pair.motion_beats),
-            "alignment": {
-                "before": asdict(pair.before),
-                "after": asdict(pair.after),
-                "chance": asdict(pair.chance),
-            },
+            "alignment": {when: asdict(getattr(pair, when)) for when in WHEN},
         },
     }
 

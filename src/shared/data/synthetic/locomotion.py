@@ -7,8 +7,10 @@ the pelvis (`lead`) was chosen so that neither leg has to reach further than it 
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from ...motion.skeleton import REST_FOOT_HEIGHT, REST_PELVIS_HEIGHT
 from .rig import (
@@ -149,11 +151,7 @@ class Path:
 
         The path starts at the origin and faces +Z at time 0.
         """
-        step = t[1] - t[0]
-
-        def integrate(rate: Array) -> Array:
-            return np.concatenate(([0.0], np.cumsum((rate[1:] + rate[:-1]) * 0.5 * step)))
-
+        integrate = partial(cumulative_trapezoid, x=t, initial=0)
         heading = integrate(yaw_rate)
         heading -= np.interp(0.0, t, heading)
         sine, cosine = np.sin(heading), np.cos(heading)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from scipy.interpolate import CubicHermiteSpline
 
 from ...formats.rig import units
 from ...motion.motion import Motion
@@ -51,8 +52,7 @@ def bump(progress: Array, peak: float = 0.5) -> Array:
 
 def keyframes(t: Array, keys: Sequence[tuple[float, float]]) -> Array:
     """Minimum-jerk interpolation of (time, value) keys; constant outside them."""
-    times = np.array([time for time, _ in keys])
-    values = np.array([value for _, value in keys])
+    times, values = np.array(keys, dtype=float).T
     if len(keys) == 1:
         return np.full_like(t, values[0])
     index = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(keys) - 2)
@@ -64,15 +64,7 @@ def keyframes(t: Array, keys: Sequence[tuple[float, float]]) -> Array:
 def hermite(t: Array, keys: Sequence[tuple[float, float, float]]) -> Array:
     """Cubic interpolation of (time, value, speed) keys; constant outside them."""
     times, values, speeds = np.array(keys, dtype=float).T
-    index = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(keys) - 2)
-    span = times[index + 1] - times[index]
-    x = np.clip((t - times[index]) / span, 0.0, 1.0)
-    return np.asarray(
-        (1 + 2 * x) * (1 - x) ** 2 * values[index]
-        + x * (1 - x) ** 2 * span * speeds[index]
-        + x * x * (3 - 2 * x) * values[index + 1]
-        + x * x * (x - 1) * span * speeds[index + 1]
-    )
+    return np.asarray(CubicHermiteSpline(times, values, speeds)(np.clip(t, times[0], times[-1])))
 
 
 def smooth_noise(rng: np.random.Generator, t: Array, amplitude: float, period: float) -> Array:
