@@ -5,7 +5,7 @@ Letters: B batch, T frames, C rows of sound.
 
 import math
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -156,12 +156,6 @@ class PhraseTask(Task):
     def _sample(self, model: AudioMotionModel, item: PhraseItem) -> MotionTrajectory:
         """A trajectory for the sound of a phrase."""
         return SongSampler(model).sample(item.audio)[0]
-
-
-def add_shares(sums: dict[str, float], figures: Mapping[str, Tensor], count: int) -> None:
-    """Add to means over `count` batches the figures of one of them."""
-    for key, value in figures.items():
-        sums[key] = sums.get(key, 0.0) + value.item() / count
 
 
 DECODER_PREFIX = NETWORK_PREFIX + "decoder."

@@ -78,11 +78,6 @@ def load_optimizer(optimizer: torch.optim.Optimizer, tensors: dict[str, Tensor])
     optimizer.load_state_dict({"state": state, "param_groups": groups})
 
 
-def _contiguous(tensors: dict[str, Tensor]) -> dict[str, Tensor]:
-    """Copies safetensors accepts: on the CPU, contiguous, sharing no memory."""
-    return {name: value.detach().cpu().contiguous().clone() for name, value in tensors.items()}
-
-
 def save_checkpoint(
     root: Path, tensors: Mapping[str, dict[str, Tensor]], *, state: dict[str, Any], keep: int
 ) -> Path:
@@ -103,7 +98,8 @@ def save_checkpoint(
     try:
         partial.mkdir(parents=True)
         for name, own in files.items():
-            save_file(_contiguous(own), partial / name)
+            alone = {key: each.detach().cpu().contiguous().clone() for key, each in own.items()}
+            save_file(alone, partial / name)  # which refuses tensors that share memory
         hashes = {name: sha256_file(partial / name) for name in files}
         write_json(partial / "state.json", {**state, "sha256": hashes})
         shutil.rmtree(target, ignore_errors=True)

@@ -274,7 +274,8 @@ class Trainer(Generic[ConfigT]):
                 if step % config.save_every == 0 or last or stop:
                     self._save(step)
                 if stop:
-                    raise self._interrupted(step, guard)
+                    told = f"stopped and saved at step {step}; continue with: {self.command}"
+                    raise Interrupted(told, guard.signal_number or 2)
                 enough = self._look(step, log)
                 since += time.perf_counter() - finished  # speed is that of the steps alone
             self._finish(step)
@@ -327,7 +328,7 @@ class Trainer(Generic[ConfigT]):
     def _passes(self, batch: Any) -> dict[str, Tensor]:
         """Figures of a batch on the device; its gradients are added to the weights'."""
         if self.graphed is not None:
-            return self.graphed(self.task.padded(batch))
+            return self.graphed(batch.padded())
         metrics = self.task.training_step(self.wrapped, batch)
         self.accelerator.backward(metrics["loss"])
         return metrics
@@ -380,7 +381,8 @@ class Trainer(Generic[ConfigT]):
         if not self._is_validated(step):
             return False
         self._validate(step, log)
-        if step == self.config.steps or not self._has_converged():
+        converged = self.accelerator.is_main_process and self.task.has_converged()
+        if step == self.config.steps or not self._any(converged):
             return False
         announce(f"no better for long: stopping early at step {step}")
         self._save(step)
@@ -474,10 +476,6 @@ class Trainer(Generic[ConfigT]):
         if self.accelerator.scaler is not None and "scaler" in checkpoint.state:
             self.accelerator.scaler.load_state_dict(checkpoint.state["scaler"])
 
-    def _has_converged(self) -> bool:
-        """Whether the task wants no more steps; the main process decides, as it validates."""
-        return self._any(self.accelerator.is_main_process and self.task.has_converged())
-
     def _any(self, flag: bool) -> bool:
         """Whether it holds in any process; every process must ask."""
         value = torch.tensor(float(flag), device=self.accelerator.device)
@@ -500,9 +498,3 @@ class Trainer(Generic[ConfigT]):
         if self.accelerator.num_processes == 1:
             return guard.signal_number is not None
         return step % _STOP_CHECK_EVERY == 0 and self._any(guard.signal_number is not None)
-
-    def _interrupted(self, step: int, guard: InterruptGuard) -> Interrupted:
-        return Interrupted(
-            f"stopped and saved at step {step}; continue with: {self.command}",
-            guard.signal_number or 2,
-        )

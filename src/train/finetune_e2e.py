@@ -41,7 +41,7 @@ from ..shared.motion.trajectory import FPS, POSITION, QUATERNION
 from ..shared.pipelines.song_sampler import SPARE
 from . import audio_stages
 from .audio_stages import (
-    add_shares,
+    PhraseTask,
     bar_phase_at_start,
     open_phrases,
     save_noted,
@@ -50,7 +50,7 @@ from .audio_stages import (
 )
 from .launch import STAGES
 from .run_log import Epoch, as_logged, best_epoch, console, read_epochs, results_table
-from .task import generator, to_device
+from .task import generator, means, to_device
 from .train_audio import AudioBatch, AudioTask, audio_losses
 from .train_generation import spread_timesteps
 
@@ -238,15 +238,12 @@ class FinetuneE2eTask(AudioTask):
 
     # ------------------------------------------------------------ learning
 
-    def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
-        """All losses of the batch."""
-        losses: dict[str, Tensor] = module(batch)
-        return losses
+    training_step = PhraseTask.training_step  # the module gives its losses itself
 
     def validation(self, module: nn.Module) -> dict[str, float]:
         """All losses on held-back phrases with fixed noise; keeps the weights if best so far."""
         device, steps = next(module.parameters()).device, self.diffusion.config.timesteps
-        sums: dict[str, float] = {}
+        found = []
         for index in range(self.config.validation_batches):
             phrases = whole_windows(self.held_back.batch(index + 1, self.config.batch_size))
             draws = generator("validation", index)
@@ -255,12 +252,12 @@ class FinetuneE2eTask(AudioTask):
             audio = self._noised(phrases, timesteps, known, draws)
             batch = to_device(self._completed(phrases, audio, draws, index), device)
             with autocast(self.compute):
-                losses = module(batch)
-            add_shares(sums, losses, self.config.validation_batches)
+                found.append(module(batch))
+        figures = means(found)
         before = [epoch.loss for epoch in self.epochs()]
-        if not before or as_logged(sums["loss"]) < min(before):
+        if not before or as_logged(figures["loss"]) < min(before):
             self._finished(module).save_pretrained(Path(self.config.output) / BEST)
-        return sums
+        return figures
 
     def epochs(self) -> list[Epoch]:
         """Those validated and logged so far."""

@@ -8,7 +8,6 @@ those whose captions sound alike: it gets a direction of its own. A tower that
 starts from nothing learns its places (`LabelledTower`).
 """
 
-import copy
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -36,7 +35,7 @@ from ..shared.model.generation.denoiser import TAG_WEIGHT, MotionDenoiser
 from ..shared.model.generation.motion_generator import TextToMotion
 from .run_log import announce
 from .task import generator, numpy_generator
-from .text_stages import with_places
+from .text_stages import tower_of, with_places
 
 Combination = tuple[tuple[str, str], ...]
 
@@ -451,14 +450,10 @@ def with_rows(tower: TextTower, keys: Tensor) -> TextTower:
     before = tower.encoder.keys
     fresh = keys[~torch.isin(keys, before)]
     every, order = torch.cat([before, fresh]).sort()
-    config = tower.config.model_copy(update={"text_pairs": len(every)})
-    wider = TextTower(config, tower.embed_dim)
-    state = copy.copy(tower.state_dict())
-    rows = state["encoder.rows.weight"]  # [N + 1, H], the last one unknown
+    rows = tower.encoder.rows.weight.detach()  # [N + 1, H], the last one unknown
     more = torch.cat([rows[:-1], torch.zeros(len(fresh), rows.shape[1])])[order]
-    state |= {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
-    wider.load_state_dict(state)
-    return wider
+    own = {"encoder.keys": every, "encoder.rows.weight": torch.cat([more, rows[-1:]])}
+    return tower_of(tower, tower.state_dict() | own)
 
 
 def with_fewer_rows(tower: TextTower, counts: Mapping[int, int], most: int) -> TextTower:
@@ -472,12 +467,11 @@ def with_fewer_rows(tower: TextTower, counts: Mapping[int, int], most: int) -> T
     met = torch.tensor([counts.get(key, 0) for key in keys.tolist()])
     weight = rows[:-1].norm(dim=-1) * (1 + met).sqrt()
     kept = weight.argsort(descending=True, stable=True)[:most].sort().values
-    fewer = TextTower(tower.config.model_copy(update={"text_pairs": len(kept)}), tower.embed_dim)
-    state = copy.copy(tower.state_dict())
-    state["encoder.keys"] = keys[kept]
-    state["encoder.rows.weight"] = torch.cat([rows[kept], rows[-1:]])
-    fewer.load_state_dict(state)
-    return fewer
+    own = {
+        "encoder.keys": keys[kept],
+        "encoder.rows.weight": torch.cat([rows[kept], rows[-1:]]),
+    }
+    return tower_of(tower, tower.state_dict() | own)
 
 
 # ---------------------------------------------------------------- another tower

@@ -41,12 +41,12 @@ class Part:
     count: int
 
 
-def means(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+def means(rows: Sequence[Mapping[str, float | Tensor]]) -> dict[str, float]:
     """Of each figure its mean over the rows that have it."""
     columns: dict[str, list[float]] = {}
     for row in rows:
         for key, value in row.items():
-            columns.setdefault(key, []).append(value)
+            columns.setdefault(key, []).append(float(value))
     return {key: sum(values) / len(values) for key, values in columns.items()}
 
 
@@ -59,7 +59,8 @@ class Task(ABC):
         frozen: what belongs to the task but is not trained (towers, losses); it follows the module.
         learning_rates: from the beginning of weights' names to the rate of that part.
         figures: of the last validation; the trainer keeps them here.
-        can_be_captured: whether `training_step` reads nothing back from the device (graphs.py).
+        can_be_captured: whether `training_step` reads nothing back from the device (graphs.py);
+            each shape is captured once, so batches give themselves in one of few, as `padded()`.
     """
 
     module: nn.Module
@@ -77,10 +78,6 @@ class Task(ABC):
     @abstractmethod
     def batch(self, part: Part) -> Any:
         """Part of a step's batch, on the CPU: a pure function of its argument and the seed."""
-
-    def padded(self, batch: Any) -> Any:
-        """A batch with the same losses in one of few shapes, as each is captured once."""
-        return batch
 
     def training_step(self, module: nn.Module, batch: Any) -> dict[str, Tensor]:
         """Scalars of one part, among them `loss`; call `module` itself, never an attribute."""

@@ -11,7 +11,7 @@ import copy
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -31,6 +31,7 @@ from ..shared.data.streamed import StreamedData, StreamedSet
 from ..shared.data.text_motion import (
     CaptionedWindows,
     TextMotionDataset,
+    WindowOptions,
     arm_actions,
     gestures,
     still_actions,
@@ -101,15 +102,18 @@ def training_clips(
     if not isinstance(data, StreamedData):
         return training_set(config, data, only)
     with _enough():
-        return StreamedSet(
-            data,
-            min_frames=config.min_frames,
-            max_frames=config.max_frames,
-            whole=config.whole,
-            languages=config.languages,
-            only=only,
-            seed=mix_seed("data", config.seed),
-        )
+        return StreamedSet(data, **_windows(config, only))
+
+
+def _windows(config: TrainConfig, only: Callable[[ClipRecord], bool] | None) -> WindowOptions:
+    return {
+        "min_frames": config.min_frames,
+        "max_frames": config.max_frames,
+        "whole": config.whole,
+        "languages": config.languages,
+        "only": only,
+        "seed": mix_seed("data", config.seed),
+    }
 
 
 def with_labels(data: PreparedData) -> Callable[[ClipRecord], bool] | None:
@@ -159,14 +163,9 @@ def split_set(
     return TextMotionDataset(
         data,
         split,
-        min_frames=config.min_frames,
-        max_frames=config.max_frames,
-        languages=config.languages,
         balance=config.balance,
         captured_share=config.captured_share,
-        whole=config.whole,
-        only=only,
-        seed=mix_seed("data", config.seed),
+        **_windows(config, only),
     )
 
 
@@ -217,12 +216,19 @@ def as_features(places: Tensor) -> TextFeatures:
 def with_places(tower: TextTower, places: Tensor, keys: Tensor | None = None) -> TextTower:
     """The tower, frozen, sending every text to places [P,D] that are all different, or, where they
     have keys [P,D], that those tell apart."""
-    sizes = {"text_places": len(places), "text_place_keys": keys is not None}
-    placed = TextTower(tower.config.model_copy(update=sizes), tower.embed_dim)
     state = {name: value for name, value in tower.state_dict().items() if name != "keys"}
     own = {"places": places} if keys is None else {"places": places, "keys": keys}
-    placed.load_state_dict({**state, **own})
-    return placed.freeze()
+    return tower_of(tower, state | own).freeze()
+
+
+def tower_of(like: TextTower, state: Mapping[str, Tensor]) -> TextTower:
+    """A tower like another one, with as many pairs and places as these weights of it have."""
+    sizes = {"text_places": len(state.get("places", ())), "text_place_keys": "keys" in state}
+    if "encoder.keys" in state:
+        sizes["text_pairs"] = len(state["encoder.keys"])
+    tower = TextTower(like.config.model_copy(update=sizes), like.embed_dim)
+    tower.load_state_dict(state)
+    return tower
 
 
 def network_of_model(init: str, overrides: Sequence[str] = ()) -> NetworkConfig:
@@ -497,15 +503,7 @@ def taught_once(
     file = folder / f"taught-tower-{key[:12]}.safetensors"
     if file.is_file():
         with suppress(SafetensorError, OSError):  # a damaged one is made anew
-            state = load_file(file)
-            sizes = {
-                "text_pairs": len(state["encoder.keys"]),
-                "text_places": len(state["places"]),
-                "text_place_keys": "keys" in state,
-            }
-            tower = TextTower(like.config.model_copy(update=sizes), like.embed_dim)
-            tower.load_state_dict(state)
-            return tower.freeze()
+            return tower_of(like, load_file(file)).freeze()
         announce(f"{file} is damaged")
     tower = teach()
     with atomic_write(file) as temporary:

@@ -373,10 +373,6 @@ class ActionTask(Task):
 
     # ------------------------------------------------------------ learning
 
-    def padded(self, batch: ActionBatch) -> ActionBatch:
-        """With frames that are none."""
-        return batch.padded()
-
     def training_step(self, module: nn.Module, batch: ActionBatch) -> dict[str, Tensor]:
         """The weighted losses of one noised batch."""
         return denoising_losses(module, as_features(batch.place), batch, self.loss)

@@ -90,7 +90,7 @@ def audio_losses(
 def _velocity_error(x_0: Tensor, batch: AudioBatch, std: Tensor) -> Tensor:
     """Mean squared error of position and quaternion differences a second."""
     x_0 = torch.where(batch.known, batch.clean, x_0)
-    error = (x_0 - batch.clean) * std[:, None]  # [B,25,T] raw units
+    error = (x_0 - batch.clean) * std.to(x_0.device)[:, None]  # [B,25,T] raw units
     error = torch.cat((error[:, POSITION], error[:, QUATERNION]), dim=1)  # [B,7,T]
     speed = (error[..., 1:] - error[..., :-1]) * FPS
     mask = batch.mask[:, 1:] & batch.mask[:, :-1]
@@ -113,6 +113,7 @@ class AudioTask(PhraseTask):
         self.module = copy.deepcopy(self.model.unet)
         self.augment = ConditionAugmentation(network.condition.augmentation)
         self.diffusion = GaussianDiffusion(network.diffusion)
+        self.frozen = (self.diffusion,)
         self.compute = choose_compute(config.device, config.precision)
         self.identity = {
             "network": self.network.model_dump(mode="json", by_alias=True),
@@ -133,11 +134,6 @@ class AudioTask(PhraseTask):
             )
         model.load_state_dict(trained.state_dict())
         return model
-
-    def to(self, device: torch.device) -> None:
-        """Frozen parts follow the module."""
-        self.diffusion.to(device)
-        self.std = self.std.to(device)
 
     # ------------------------------------------------------------ batches
 
@@ -195,8 +191,7 @@ class AudioTask(PhraseTask):
                 batch = to_device(batch, device)
                 with autocast(self.compute):
                     losses = self.training_step(module, batch)
-                figures = {key: value.item() for key, value in losses.items()}
-                found.append({"loss": figures["loss"], f"loss-{level}": figures["loss"], **figures})
+                found.append({f"loss-{level}": losses["loss"], **losses})
         return means(found)
 
     # ------------------------------------------------------------ results

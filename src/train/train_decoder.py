@@ -32,7 +32,6 @@ from ..shared.pipelines.song_sampler import SPARE
 from . import audio_stages
 from .audio_stages import (
     PhraseTask,
-    add_shares,
     bar_phase_at_start,
     open_held_back,
     open_phrases,
@@ -42,7 +41,7 @@ from .audio_stages import (
 )
 from .launch import STAGES
 from .run_log import console
-from .task import generator, to_device
+from .task import generator, means, to_device
 
 ERROR_BATCHES = 4  # on which the UNet's error is measured
 ERROR_LEVEL = 0.25  # up to this share of the diffusion steps: what sampling ends with
@@ -195,18 +194,17 @@ class DecoderTask(PhraseTask):
     def validation(self, module: nn.Module) -> dict[str, float]:
         """Losses on held-back phrases with fixed noise and with none, beside the untrained's."""
         device = self.untrained.decoder.input_scale.device
-        sums: dict[str, float] = {}
+        found = []
         for index in range(self.config.validation_batches):
             phrases = self.held_back.batch(index + 1, self.config.batch_size)
             for clean, prefix in ((False, ""), (True, "clean-")):
                 batch = self._drawn(phrases, generator("validation", index), clean=clean)
                 batch = to_device(batch, device)
                 losses = module(batch)
-                figures = losses if not clean else {"loss": losses["loss"]}
-                figures = {f"{prefix}{key}": value for key, value in figures.items()}
-                figures[f"untrained-{prefix}loss"] = self.untrained(batch)["loss"]
-                add_shares(sums, figures, self.config.validation_batches)
-        return sums
+                figures = {"clean-loss": losses["loss"]} if clean else losses
+                untrained = self.untrained(batch)["loss"]
+                found.append({**figures, f"untrained-{prefix}loss": untrained})
+        return means(found)
 
     # ------------------------------------------------------------ results
 

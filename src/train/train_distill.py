@@ -318,7 +318,7 @@ class DistillTask(Task):
             for place, step in enumerate(self.steps):
                 batch = self._at(pairs, torch.full((len(pairs.place),), place))
                 loss = self.training_step(module, to_device(batch, device))["loss"]
-                found.append({f"loss-{step}": loss.item()})
+                found.append({f"loss-{step}": loss})
         return means(found)
 
     # ------------------------------------------------------------ results

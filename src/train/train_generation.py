@@ -365,10 +365,6 @@ class GenerationTask(Task):
 
     # ------------------------------------------------------------ learning
 
-    def padded(self, batch: DenoiserBatch) -> DenoiserBatch:
-        """With frames and tokens that are none."""
-        return batch.padded()
-
     def training_step(self, module: nn.Module, batch: DenoiserBatch) -> dict[str, Tensor]:
         """The weighted losses of one noised batch."""
         with torch.no_grad(), autocast(self.compute):
@@ -402,14 +398,13 @@ class GenerationTask(Task):
         timesteps: Tensor,
         draws: torch.Generator,
         rng: np.random.Generator | None = None,
-    ) -> dict[str, float]:
+    ) -> dict[str, Tensor]:
         """Of clips with their captions and without a tag."""
         device, told = next(module.parameters()).device, clips.provenance
         none = torch.full_like(clips.tag, self.num_tags)
         drop = torch.zeros(len(clips), dtype=torch.bool)
         batch = self._noised(clips, clips.captions, timesteps, none, drop, told, draws, rng)
-        losses = self.training_step(module, to_device(batch, device))
-        return {key: value.item() for key, value in losses.items()}
+        return self.training_step(module, to_device(batch, device))
 
     # ------------------------------------------------------------ results
 

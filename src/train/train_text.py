@@ -280,9 +280,7 @@ class TextTask(Task):
         keys, counts = self._counted_keys(bundle.tokenizer, self._texts() + written)
         self.met = dict(zip(keys.tolist(), counts.tolist(), strict=True))
         more = with_rows(bundle.clip.text, keys[counts >= self.config.least_captions])
-        network = bundle.clip.config
-        bundle.clip.config = network.model_copy(update={"clip": more.config})
-        bundle.clip.text = more
+        _give(bundle, more)
 
     def _replace_tower(self, bundle: ClipBundle) -> None:
         """A tower of token pairs that knows nothing yet, in place of the one that is there."""
@@ -291,7 +289,7 @@ class TextTask(Task):
         tower = TextTower(network.clip, network.embed_dim)
         assert isinstance(tower.encoder, TokenPairEncoder)
         tower.encoder.keys = keys
-        bundle.clip.text, bundle.clip.config = tower, network
+        _give(bundle, tower)
 
     def _shares(self) -> np.ndarray:
         """How often a combination is drawn [G], of what one without a style weighs a share in the
@@ -521,22 +519,10 @@ class TextTask(Task):
     def _placed(self, tower: TextTower) -> TextTower:
         """With the places of the combinations, each once."""
         if self.answers is None:
-            placed = with_places(tower, torch.unique(self.places.cpu(), dim=0))
-        else:
-            both = torch.cat((self.places.cpu(), self.answers), dim=1)
-            keys, answers = torch.unique(both, dim=0).split(self.places.shape[1], dim=1)
-            placed = with_places(tower, answers, keys)
-        network = self.bundle.clip.config.model_copy(update={"clip": placed.config})
-        self.bundle.clip.config = network
-        return placed
-
-    def _fewer_rows(self, tower: TextTower) -> TextTower:
-        """With no more rows than are to be kept."""
-        most = self.config.most_rows or tower.config.text_pairs
-        tower = with_fewer_rows(tower, self.met, most).freeze()
-        network = self.bundle.clip.config.model_copy(update={"clip": tower.config})
-        self.bundle.clip.config = network
-        return tower
+            return with_places(tower, torch.unique(self.places.cpu(), dim=0))
+        both = torch.cat((self.places.cpu(), self.answers), dim=1)
+        keys, answers = torch.unique(both, dim=0).split(self.places.shape[1], dim=1)
+        return with_places(tower, answers, keys)
 
     def save_pretrained(self, module: nn.Module, folder: Path) -> None:
         """The CLIP folder with the new tower; or the generator with it and a new scope."""
@@ -544,18 +530,18 @@ class TextTask(Task):
         if self.config.tower == PAIRS:
             tower = self._placed(tower)
         elif self.goes_on:
-            tower = self._fewer_rows(tower)
+            most = self.config.most_rows or tower.config.text_pairs
+            tower = with_fewer_rows(tower, self.met, most).freeze()
+        _give(self.bundle, tower)
         hardened = {"steps": self.config.steps, "validation": self.figures}
         if self.config.generator is None:
-            self.bundle.clip.text = tower
             self.bundle.card = _noted(self.bundle.card, hardened)
             self.bundle.save_pretrained(folder)
             return
         generator = TextToMotion.from_pretrained(self.config.generator, device="cpu")
         generator.text, generator.tokenizer = tower, self.tokenizer
         languages, without = self.config.languages, self.config.without
-        clip = self.bundle.clip.config.clip
-        generator.network = generator.network.model_copy(update={"clip": clip})
+        generator.network = generator.network.model_copy(update={"clip": tower.config})
         generator.card = _noted(generator.card, hardened)
         if self.goes_on:  # its places stay
             if generator.scope is not None:
@@ -590,6 +576,12 @@ def open_tower(name_or_folder: str) -> ClipBundle:
     clip.text, tokenizer = load_text_tower(folder, card.network.embed_dim)
     statistics = torch.zeros(0), torch.zeros(0)  # of the motion tower, which is not written
     return ClipBundle(clip, tokenizer, *statistics, card)
+
+
+def _give(bundle: ClipBundle, tower: TextTower) -> None:
+    """Put another text tower, of sizes of its own, into a bundle."""
+    bundle.clip.text = tower
+    bundle.clip.config = bundle.clip.config.model_copy(update={"clip": tower.config})
 
 
 def _noted(card: Any, hardened: dict[str, Any]) -> Any:

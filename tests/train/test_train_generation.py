@@ -311,7 +311,7 @@ def test_a_padded_batch_has_the_same_losses(prepared: Path, clip: Path, tmp_path
     config = generation_config(prepared, clip, tmp_path, "losses.foot-slide=1", "losses.position=1")
     task = GenerationTask(config, tiny_network())
     batch = task.batch(Part(3, 0, 1))
-    padded = task.padded(batch)
+    padded = batch.padded()
     assert padded.clean.shape[1] % 30 == 0 and padded.input_ids.shape[1] % 32 == 0
     assert padded.clean.shape[1] >= batch.clean.shape[1]
     with torch.no_grad():
