@@ -449,9 +449,10 @@ def _begins_after(text: str, then: re.Match[str]) -> bool:
 
 
 def _is_aside(piece: str, *, first: bool) -> bool:
-    """Whether a piece names but limbs, sides and posture, or, behind another, what is not done."""
-    rest = all_words().aside.sub(" ", piece).strip(EDGES)
-    return not rest or (not first and bool(all_words().lacking.match(rest)))
+    """Whether a piece names but limbs, sides and posture, or, behind another, what is not done or
+    what it is like."""
+    words, rest = all_words(), all_words().aside.sub(" ", piece).strip(EDGES)
+    return not rest or (not first and bool(words.lacking.match(rest) or words.similes.match(rest)))
 
 
 class _Way(NamedTuple):

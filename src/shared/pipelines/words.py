@@ -1,8 +1,7 @@
 """The words by which a sentence says order and measure, as patterns; and those of what a model may
 not have learned.
 
-They are those of src/configs/measures.yaml and unlearned.yaml, all languages at once: a sentence
-need not say which one it is in.
+They are those of src/configs/measures.yaml and unlearned.yaml, of all languages at once.
 """
 
 import gc
@@ -175,7 +174,9 @@ class Words:
             re.compile(_any(all_of(key)), re.I)
             for key in ("left", "right", "round", "corners", "uncounted", "takes", "lacking")
         )
-        self.eights, self.winds = (Rare(_any(all_of(k)), all_of(k)) for k in ("eights", "winds"))
+        self.eights, self.winds, self.similes = (
+            Rare(_any(all_of(key)), all_of(key)) for key in ("eights", "winds", "similes")
+        )
         self.other = re.compile(_any(sides), re.I)
         self.others = {bare(word.partition("/")[0]): both for word, both in sides.items()}
         self.angle = re.compile(_any(all_of("angles")), re.I)

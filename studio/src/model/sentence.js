@@ -519,7 +519,7 @@ export class SentenceReader {
   /** Whether a piece names nothing but limbs, sides and posture, or, behind another one, says what is not done. */
   isAside(piece, first) {
     const rest = strip(piece.replace(this.each.aside, " "));
-    return !rest || (!first && this.head.lacking.test(rest));
+    return !rest || (!first && (this.head.lacking.test(rest) || this.head.similes.test(rest)));
   }
 
   /** The halves of a text that tell most surely of two actions, null where none do. */

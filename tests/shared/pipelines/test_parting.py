@@ -519,6 +519,7 @@ def test_hops_on_the_left_foot_are_mirrored(sentence: str, sentences: SentenceGe
         ("punch, punch, kick", [("punch", 2), ("kick", 1)]),
         ("jump jump jump", [("jump", 3)]),
         ("kick kick, then punch", [("kick", 2), ("punch", 1)]),
+        ("accusing point, like a lawyer in court", [("accusing point, like a lawyer in court", 1)]),
         ("boxing combo: jab, jab, hook", [("jab", 1), ("jab", 1), ("hook", 1)]),
         ("walks walks walks", [("walks walks walks", 1)]),
         ("jump jump jump for joy", [("jump jump jump for joy", 1)]),
