@@ -36,6 +36,7 @@ FLOOR_SHARE = 4  # every so many-th plain request is put to the floors
 PIECES, HOP = (60, 120), 15  # frames: windows in which the parts of a composition are looked for
 REAL = "captured, held out"  # name of the row
 LOOKED_UP = "captured, looked up in training"
+HALVES = 1 << 17  # of the draws of one seed, those of halves of the takes
 DRAWS = 20  # of the clips that a distance is held against
 LENGTH_DRAWS = 4  # of the lengths at which its motions are made
 Labels = dict[str, str]
@@ -128,13 +129,16 @@ class Requests(Yardstick):
     def _distances(
         self, labels: Sequence[Labels], sets: Sequence[Seen], records: Sequence[ClipRecord] = ()
     ) -> dict[str, Cell]:
-        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each,
-        of another take; averages over draws, which take turns with the sets of motions."""
+        """Of a motion a request, or of a clip drawn from `records`, against a held-out clip each;
+        averages over draws, which take turns with the sets of motions. Held-out clips are drawn
+        from one half of the takes, and held against those of the other: against themselves their
+        distance would go to 0 with the number of requests."""
         own = [answering(w, records) if records else [row] for row, w in enumerate(labels)]
         pools = [pair for w, rows in zip(labels, own, strict=True)
                  if all(pair := (self.references(w), rows))]  # fmt: skip
         if len(pools) < 2:
             return {}
+        takes, shared = sorted({record.take for record in self.records}), records is self.records
         used = sorted({row for _, rows in pools for row in rows})
         place, sets = {row: at for at, row in enumerate(used)}, [seen.rows(used) for seen in sets]
         turns, held = [self.points(seen) for seen in sets], self.records
@@ -142,11 +146,13 @@ class Requests(Yardstick):
         for draw in range(DRAWS):
             rng = np.random.default_rng([self.settings.seed, draw])
             here, there = list[int](), list[int]()
+            halves = np.random.default_rng([self.settings.seed, HALVES, draw])
+            first = {*halves.permutation(takes)[::2].tolist()} if shared else set[str]()
             for pool, candidates in pools:
+                if shared:
+                    pool = [row for row in pool if held[row].take in first] or pool
+                    candidates = [r for r in candidates if held[r].take not in first] or candidates
                 there.append(int(rng.choice(pool)))
-                if records:
-                    take = held[there[-1]].take
-                    candidates = [r for r in candidates if records[r].take != take] or candidates
                 here.append(place[int(rng.choice(candidates))])
             pairs = zip(turns[draw % len(turns)], self.real_points, strict=True)
             found.append([frechet_distance(a[here], b[there]) for a, b in pairs])

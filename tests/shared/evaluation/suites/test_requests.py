@@ -14,7 +14,7 @@ from src.shared.data.prepared import PreparedData
 from src.shared.data.sources import SyntheticSource
 from src.shared.data.synthetic.clips import generate_clip, label_combinations, spec_for
 from src.shared.errors import UserError
-from src.shared.evaluation.suites.requests import LONG_WALKS, evaluate_requests
+from src.shared.evaluation.suites.requests import LONG_WALKS, Requests, evaluate_requests
 from src.shared.evaluation.suites.yardstick import RequestSettings, Yardstick
 from src.shared.evaluation.tables import Grid
 from src.shared.motion.motion import Motion
@@ -111,6 +111,16 @@ def test_distances_grow_where_nothing_moves(tables: dict[str, Grid]) -> None:
         assert far > 2 * near
         assert far > realism.value("captured, looked up in training", column)
     assert 0 <= realism.value("generated", "procedural") <= 1
+
+
+def test_more_requests_do_not_hold_captured_clips_against_themselves(data: PreparedData) -> None:
+    suite = Requests(Puppet(), data, SETTINGS, lambda text: None)
+    labels = [request.labels for request in suite.plain]
+    few, many = (
+        suite._distances(labels * times, [suite.real], suite.records)["learned"]
+        for times in (1, 30)
+    )
+    assert many.value > 0.25 * few.value > 0  # type: ignore[union-attr]
 
 
 def test_distances_compare_motions_of_the_lengths_of_captured_clips(
