@@ -79,17 +79,18 @@ def on_its_feet(before: Motion, motion: Motion) -> Motion:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Write them; 1 where there are none."""
+    """Write them; 1 where a style has none."""
     parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
     parser.add_argument("prepared", type=Path, help="folder of `motion-tools prepare`")
     parser.add_argument("out", type=Path)
     parser.add_argument("--styles", required=True, help="with commas")
     given = parser.parse_args(arguments)
     data, made = PreparedData.open(given.prepared), Counter[str]()
+    styles = given.styles.split(",")
     for record in data.records("train"):
         style = record.labels.get("style", "")
         ahead = record.tag == "walk" and record.labels.get("direction") in SIDES
-        if record.mirrored or not ahead or style not in given.styles.split(","):
+        if record.mirrored or not ahead or style not in styles:
             continue
         features = data.features(record)
         speed = features[:, ROOT_ROW, [LATERAL, FORWARD]].mean(0).tolist()
@@ -98,11 +99,11 @@ def main(arguments: list[str] | None = None) -> int:
         number = f"{FIRST + made[style]:03d}"
         write_motion(motion, given.out / f"{re.sub(r'[0-9]+$', number, name)}.bvh")
         made[style] += 1
-    if not made:
-        print(f"walk_clips: no walk to a side in {given.styles} in {given.prepared}; name styles"
-              " that it has", file=sys.stderr)  # fmt: skip
+    if lacking := [style for style in styles if not made[style]]:
+        print(f"walk_clips: no walk to a side of {', '.join(lacking)} in {given.prepared}; name"
+              " styles that it has", file=sys.stderr)  # fmt: skip
         return 1
-    print(", ".join(f"{style}: {number}" for style, number in made.items()))
+    print(", ".join(f"{style}: {made[style]}" for style in styles))
     return 0
 
 

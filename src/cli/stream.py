@@ -97,6 +97,10 @@ def stream(
         real_time=real_time, in_place=root == "in-place",
     )  # fmt: skip
 
+    def warn(text: str) -> None:
+        for warning in filter(None, generator.sentences.scope_warnings([text])):
+            complain(f"warning: {warning}")
+
     def say(line: str) -> None:
         text = " ".join(line.split())
         if text:
@@ -105,8 +109,7 @@ def stream(
             except UsageError as error:  # of one line; the stream goes on
                 complain(f"warning: {error}")
                 return
-            for warning in filter(None, generator.sentences.scope_warnings([text])):
-                complain(f"warning: {warning}")
+            warn(text)
 
     def listen() -> None:
         before, began = -math.inf, time.monotonic()
@@ -118,6 +121,7 @@ def stream(
         if seconds is None and websocket is None:
             body.stop(AFTER)
 
+    warn(prompt)
     with ExitStack() as held:
         sinks = []
         if websocket is not None:

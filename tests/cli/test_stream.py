@@ -27,6 +27,7 @@ def test_sentences_from_a_pipe() -> None:
         listener.settimeout(60)
         port = listener.getsockname()[1]
         command = ["-m", "src.cli.tools", "stream", "--seconds", "2", "--no-real-time", "--json"]
+        command += ["--prompt", "a person juggles"]
         result = subprocess.run(
             [sys.executable, *command, "--steps", "2", "--vmc", str(port)],
             input="a person waves\n\n", capture_output=True, text=True, cwd=ROOT,
@@ -38,6 +39,7 @@ def test_sentences_from_a_pipe() -> None:
     assert [frame["frame"] for frame in frames] == list(range(60))
     assert frames[-1]["text"] == "a person waves"
     assert "60 frames" in result.stderr and "torch" not in result.stderr
+    assert "warning: prompt 'a person juggles' asks for 'juggles'" in result.stderr
 
 
 @pytest.mark.parametrize(("apart", "late"), [(2.0, False), (0.0, True)])

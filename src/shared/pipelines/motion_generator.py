@@ -496,7 +496,7 @@ class MotionGenerator:
             found.append(
                 Passage(
                     said.whole(text) if whole else part.text,
-                    round(said.ways.lasting(part) * fps),
+                    max(1, round(said.ways.lasting(part) * fps)),
                     low=said.ways.nearest(part.text) == "sit",
                     mirrored=mirrored,
                     straight=said.ways.goes_straight(part.text),

@@ -440,7 +440,7 @@ class MotionStream:
         self._frames = round(seconds * self._fps)
         self._prompts = [] if isinstance(prompts, str) else prompts
         self._plan = plan or (lambda text: [Passage(text, self._frames)])
-        self._now: tuple[str, Sequence[Passage]] | None = None  # what was said, what is done of it
+        self._now: tuple[str, str | None, Sequence[Passage]] | None = None  # said, tag, and done
         if isinstance(prompts, str):
             self.say(prompts)
         self._constraint, self._course = constraint, Course(self._fps)
@@ -470,9 +470,9 @@ class MotionStream:
             UsageError: no text; the stream goes on as it was.
         """
         check_text("text", text)
-        if self._now is not None and self._now[0] == text:
+        if self._now is not None and self._now[:2] == (text, tag):
             return  # it goes on
-        self._now = text, [replace(each, tag=tag) for each in self._plan(text)]
+        self._now = text, tag, [replace(each, tag=tag) for each in self._plan(text)]
 
     def stop(self) -> None:
         """End after what is made already."""
@@ -516,7 +516,7 @@ class MotionStream:
             self._texts.append((self._made, passage.text))
             yield passage
         while (now := self._now) is not None:
-            text, parts = now
+            text, _, parts = now
             if self.text_at(self._made) != text:
                 self._texts.append((self._made, text))
             for part in parts:

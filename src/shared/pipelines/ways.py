@@ -170,10 +170,8 @@ class Ways:
 
     def goes_straight(self, text: str) -> bool:
         """Whether a text asks for a way that nothing in it bends."""
-        action, side = self.nearest(text), side_of(text)
-        return (
-            action in STEPPING and not goes_round(text) and (action not in GOING or side == "both")
-        )
+        action, bent = self.nearest(text), side_of(text) != "both" or winding(text) != ()
+        return action in STEPPING and not goes_round(text) and not (bent and action in GOING)
 
     def straight(self, text: str, features: Tensor) -> Tensor:
         """Features that nothing led, [T,23,6]: who goes on for longer than a window, and does not

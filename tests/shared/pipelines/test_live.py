@@ -82,6 +82,16 @@ def test_a_live_body_does_one_thing_after_the_other_and_goes_straight() -> None:
     assert np.linalg.norm(way) > 35.0 and abs(np.degrees(np.arctan2(way[0], way[2]))) < 12.0
 
 
+def test_ways_that_bend_are_not_straightened() -> None:
+    starter = MotionGenerator("starter", device="cpu")
+    ways = starter.sentences.ways
+    asked = ["a person walks forward", "he walks backwards", "a person side-steps to the left",
+             "walks in a circle", "a person walks in a zigzag", "takes the next left"]  # fmt: skip
+    assert [ways.goes_straight(text) for text in asked] == [True] * 3 + [False] * 3
+    short, last = starter._plan("waves for 0.01 seconds, then bows")
+    assert short.frames == 1 and last.frames == 90
+
+
 def test_it_ends_so_many_seconds_later(generator: MotionGenerator) -> None:
     live, seen = body(generator), []
 
